@@ -1,0 +1,113 @@
+"""The canvas: pymunk says which obstacles a line touches, and by how much it clears them."""
+
+import dataclasses
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pymunk
+
+from proc3s import Margin, Plan, State, Transition, World
+
+CANVAS_SIZE = 100.0
+CLEARANCE = 1.0
+"""The pen keeps this far from an obstacle, canvas units."""
+
+
+@dataclass(frozen=True)
+class Stroke:
+    """What drawing one line measured, canvas units: the obstacle it comes nearest to, negative if it touches.
+
+    `obstacle` is None on a canvas without obstacles.
+    """
+
+    clearance: float
+    obstacle: str | None
+
+
+class Canvas(World[Stroke]):
+    """A static pymunk space of inflated discs; drawing a line is a query in it."""
+
+    def place(self, state: State) -> None:
+        """Build the space of the obstacles, unless it is there: nothing in it ever moves."""
+        previous = self.state
+        super().place(state)
+        if previous is None or previous.obstacles != self.state.obstacles:
+            self._build()
+
+    def _build(self) -> None:
+        self._space = pymunk.Space()
+        body = self._space.static_body
+        for obstacle in self.state.obstacles:
+            centre = (obstacle.x_pos, obstacle.y_pos)
+            self._space.add(pymunk.Circle(body, obstacle.radius + CLEARANCE, centre))
+        self._discs = list(self._space.shapes)
+        self._centres = np.array([[o.x_pos, o.y_pos] for o in self.state.obstacles]).reshape(-1, 2)
+        self._radii = np.array([o.radius + CLEARANCE for o in self.state.obstacles])
+
+    def draw(self, p1: tuple[float, float], p2: tuple[float, float]) -> Stroke:
+        """Put a line on the canvas, whether it touches an obstacle or not."""
+        line = self.domain.states.types["DrawnLine"](*p1, *p2)
+        lines = (*self.state.drawn_lines, line)
+        self.state = dataclasses.replace(self.state, drawn_lines=lines)
+        if not self._discs:
+            return Stroke(np.inf, None)
+        # A query with a radius misses grazing hits: the discs are inflated instead.
+        hits = self._space.segment_query(p1, p2, 0.0, pymunk.ShapeFilter())
+        touched = {id(hit.shape) for hit in hits}
+        distance = np.abs(_distances(self._centres, p1, p2) - self._radii)
+        signed = np.where([id(disc) in touched for disc in self._discs], -distance, distance)
+        nearest = int(np.argmin(signed))
+        return Stroke(float(signed[nearest]), self.state.obstacles[nearest].name)
+
+    def render(self, plan: Plan, path: Path) -> None:
+        """A picture of the canvas, later lines darker."""
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+        from matplotlib.figure import Figure
+        from matplotlib.patches import Circle
+
+        figure = Figure(figsize=(5, 5), dpi=120, layout="tight")
+        FigureCanvasAgg(figure)
+        axes = figure.subplots()
+        axes.set(xlim=(0, CANVAS_SIZE), ylim=(0, CANVAS_SIZE), aspect="equal", xlabel="x", ylabel="y")
+        for o in self.state.obstacles:
+            axes.add_patch(Circle((o.x_pos, o.y_pos), o.radius, color=o.color, alpha=0.5, linewidth=0))
+            axes.text(o.x_pos, o.y_pos, o.name, ha="center", va="center", fontsize=7)
+        lines = self.state.drawn_lines
+        for n, line in enumerate(lines, start=1):
+            shade = str(0.5 * (1 - n / len(lines)))
+            axes.plot([line.p1_x, line.p2_x], [line.p1_y, line.p2_y], color=shade, linewidth=2)
+        figure.savefig(path)
+
+
+def _distances(
+    centres: np.ndarray[Any, np.dtype[np.float64]], p1: tuple[float, float], p2: tuple[float, float]
+) -> np.ndarray[Any, np.dtype[np.float64]]:
+    """Distances of points, shape (n, 2), from a segment that may be a point."""
+    start, along = np.array(p1), np.subtract(p2, p1)
+    length2 = float(along @ along)
+    t = np.clip((centres - start) @ along / length2, 0, 1) if length2 > 0 else np.zeros(len(centres))
+    return np.linalg.norm(centres - start - t[:, None] * along, axis=1)
+
+
+def draw_line(world: Canvas, p1_x: float, p1_y: float, p2_x: float, p2_y: float) -> Stroke:
+    """The skill: a straight line between two points, canvas units."""
+    return world.draw((p1_x, p1_y), (p2_x, p2_y))
+
+
+def inside(transition: Transition[Stroke]) -> Margin:
+    """Distance of the end points from the border, canvas units."""
+    p1_x, p1_y, p2_x, p2_y = (float(value) for value in transition.action.args)  # type: ignore[arg-type]
+    by_axis = {
+        axis: min(*values, *(CANVAS_SIZE - v for v in values))
+        for axis, values in {"x": (p1_x, p2_x), "y": (p1_y, p2_y)}.items()
+    }
+    axis = min(by_axis, key=lambda name: by_axis[name])
+    return Margin(by_axis[axis], {"axis": axis})
+
+
+def clear_of_obstacles(transition: Transition[Stroke]) -> Margin | None:
+    """Clearance from the nearest obstacle beyond the distance the pen keeps, canvas units."""
+    stroke = transition.telemetry
+    return Margin(stroke.clearance, {"obstacle": stroke.obstacle}) if stroke.obstacle else None

@@ -1,0 +1,35 @@
+"""Answers without a key: replayed, given by hand, or scripted."""
+
+from collections.abc import Callable
+
+from proc3s import LLMSpec, hookimpl
+
+
+@hookimpl
+def register_llms(register: Callable[[LLMSpec], None]) -> None:
+    """`replay`, `manual` and `stub`."""
+    register(
+        LLMSpec(
+            name="replay",
+            summary="Answers that are there already: bundled with the domain, in a folder, or in a run.",
+            usage="replay, or replay:PATH (a folder of answers or a run folder)",
+            target="proc3s_replay.replay:Replay",
+        )
+    )
+    register(
+        LLMSpec(
+            name="manual",
+            summary="Writes each prompt to a file and waits for a person to write the answer beside it.",
+            usage="manual:DIR",
+            target="proc3s_replay.manual:Manual",
+            options="proc3s_replay.manual:Options",
+        )
+    )
+    register(
+        LLMSpec(
+            name="stub",
+            summary="Scripted answers in order, for tests.",
+            usage="stub:FILE (JSON list of texts)",
+            target="proc3s_replay.stub:Stub",
+        )
+    )

@@ -1,0 +1,80 @@
+"""Everything a plugin author imports; names are imported when first used, so `import proc3s` is cheap."""
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+from proc3s.hookspecs import hookimpl
+
+if TYPE_CHECKING:
+    from proc3s.constraints import Margin as Margin
+    from proc3s.constraints import Violation as Violation
+    from proc3s.domain import Domain as Domain
+    from proc3s.errors import LLMError as LLMError
+    from proc3s.errors import Pending as Pending
+    from proc3s.errors import SpecError as SpecError
+    from proc3s.errors import UsageError as UsageError
+    from proc3s.executors import Executor as Executor
+    from proc3s.llms import Completion as Completion
+    from proc3s.llms import Message as Message
+    from proc3s.llms import Request as Request
+    from proc3s.llms import digest as digest
+    from proc3s.problem import Problem as Problem
+    from proc3s.problem import Trial as Trial
+    from proc3s.problem import rollout as rollout
+    from proc3s.samplers import Sampler as Sampler
+    from proc3s.samplers import Space as Space
+    from proc3s.solving import Solver as Solver
+    from proc3s.specfile import load_domain as load_domain
+    from proc3s.specs import ConstraintSpec as ConstraintSpec
+    from proc3s.specs import DomainSpec as DomainSpec
+    from proc3s.specs import ExecutorSpec as ExecutorSpec
+    from proc3s.specs import LLMSpec as LLMSpec
+    from proc3s.specs import MethodSpec as MethodSpec
+    from proc3s.specs import PresetSpec as PresetSpec
+    from proc3s.specs import SamplerSpec as SamplerSpec
+    from proc3s.specs import SkillSpec as SkillSpec
+    from proc3s.specs import SolverSpec as SolverSpec
+    from proc3s.specs import TemplatesSpec as TemplatesSpec
+    from proc3s.state import Action as Action
+    from proc3s.state import FloatArray as FloatArray
+    from proc3s.state import Plan as Plan
+    from proc3s.state import Pose as Pose
+    from proc3s.state import State as State
+    from proc3s.world import Score as Score
+    from proc3s.world import Transition as Transition
+    from proc3s.world import World as World
+
+_WHERE = {
+    "constraints": ("Margin", "Violation"),
+    "domain": ("Domain",),
+    "errors": ("LLMError", "Pending", "SpecError", "UsageError"),
+    "executors": ("Executor",),
+    "llms": ("Completion", "Message", "Request", "digest"),
+    "problem": ("Problem", "Trial", "rollout"),
+    "samplers": ("Sampler", "Space"),
+    "solving": ("Solver",),
+    "specfile": ("load_domain",),
+    "specs": (
+        "ConstraintSpec",
+        "DomainSpec",
+        "ExecutorSpec",
+        "LLMSpec",
+        "MethodSpec",
+        "PresetSpec",
+        "SamplerSpec",
+        "SkillSpec",
+        "SolverSpec",
+        "TemplatesSpec",
+    ),
+    "state": ("Action", "FloatArray", "Plan", "Pose", "State"),
+    "world": ("Score", "Transition", "World"),
+}
+_MODULES = {name: module for module, names in _WHERE.items() for name in names}
+
+__all__ = ["hookimpl", *_MODULES]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _MODULES:
+        raise AttributeError(f"module 'proc3s' has no attribute {name!r}")
+    return getattr(importlib.import_module(f"proc3s.{_MODULES[name]}"), name)

@@ -1,0 +1,64 @@
+"""The typer application: the table of commands, and how errors leave it."""
+
+import functools
+import sys
+from collections.abc import Callable
+from typing import Any
+
+import typer
+
+from proc3s.cli import catalogue, plugins, render_prompt, replay, run, schema
+from proc3s.errors import Proc3sError
+
+app = typer.Typer(
+    name="proc3s",
+    help="Plans for robots from plain language: an LLM writes a program, a solver finds its numbers.",
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+
+
+def _guarded(command: Callable[..., Any]) -> Callable[..., Any]:
+    """A mistake of the user is a message and an exit code, never a traceback."""
+
+    @functools.wraps(command)
+    def guarded(*args: Any, **kwargs: Any) -> None:
+        try:
+            command(*args, **kwargs)
+        except Proc3sError as error:
+            typer.echo(f"proc3s: {error}", err=True)
+            raise typer.Exit(error.exit_code) from error
+        except KeyboardInterrupt as error:
+            typer.echo("proc3s: interrupted", err=True)
+            raise typer.Exit(130) from error
+
+    return guarded
+
+
+_COMMANDS: dict[str, Callable[..., Any]] = {
+    "run": run.run,
+    "solve": run.solve,
+    "render-prompt": render_prompt.render_prompt,
+    "replay": replay.replay,
+    "list": catalogue.list_,
+    "show": catalogue.show,
+    "plugins": plugins.plugins,
+    "schema": schema.schema,
+}
+for _name, _command in _COMMANDS.items():
+    app.command(name=_name)(_guarded(_command))
+
+
+@app.callback()
+def _root(version: bool = typer.Option(False, "--version", help="Print the version and exit.")) -> None:
+    if version:
+        from importlib.metadata import version as installed
+
+        typer.echo(f"proc3s {installed('proc3s')}")
+        raise typer.Exit
+
+
+def main() -> None:
+    """Entry point of the `proc3s` script."""
+    sys.exit(app())

@@ -1,0 +1,46 @@
+"""Arguments and options that several commands share."""
+
+from pathlib import Path
+from typing import Annotated, TypeAlias
+
+import typer
+
+Task: TypeAlias = Annotated[str, typer.Argument(metavar="TASK", help="domain/task, e.g. drawing/star")]
+Llm: TypeAlias = Annotated[
+    str | None,
+    typer.Option("--llm", help="PROVIDER/MODEL, replay[:PATH], manual:DIR or stub:FILE  [default: replay]"),
+]
+Method: TypeAlias = Annotated[str | None, typer.Option("--method", help="see `proc3s list methods`")]
+Solver: TypeAlias = Annotated[str | None, typer.Option("--solver", help="see `proc3s list solvers`")]
+Preset: TypeAlias = Annotated[
+    str | None, typer.Option("--preset", help="what method and command line leave open  [default: paper]")
+]
+ExecutorName: TypeAlias = Annotated[
+    str | None, typer.Option("--executor", help="see `proc3s list executors`")
+]
+Seed: TypeAlias = Annotated[int | None, typer.Option("--seed", min=0, help="scene and random draws")]
+Goal: TypeAlias = Annotated[
+    str | None, typer.Option("--goal", help="an instruction of your own (nobody judges it)")
+]
+Samples: TypeAlias = Annotated[int | None, typer.Option("--samples", min=1, help="samples per round")]
+Feedback: TypeAlias = Annotated[int | None, typer.Option("--feedback", min=0, help="feedback rounds")]
+Out: TypeAlias = Annotated[Path | None, typer.Option("--out", help="run folder  [default: runs/…]")]
+Json: TypeAlias = Annotated[bool, typer.Option("--json", help="one JSON document on stdout, nothing else")]
+TemplateDir: TypeAlias = Annotated[
+    Path | None, typer.Option("--template-dir", help="folder of templates that go before all others")
+]
+Plugins: TypeAlias = Annotated[
+    list[Path] | None, typer.Option("--plugin", help="a plugin in a loose Python file (repeatable)")
+]
+DomainOptions: TypeAlias = Annotated[
+    list[str] | None, typer.Option("-D", metavar="KEY=VALUE", help="argument of the task's scene")
+]
+MethodOptions: TypeAlias = Annotated[
+    list[str] | None, typer.Option("-M", metavar="KEY=VALUE", help="field of the method")
+]
+SolverOptions: TypeAlias = Annotated[
+    list[str] | None, typer.Option("-S", metavar="KEY=VALUE", help="option of the solver")
+]
+LlmOptions: TypeAlias = Annotated[
+    list[str] | None, typer.Option("-L", metavar="KEY=VALUE", help="option of the LLM")
+]

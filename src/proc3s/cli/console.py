@@ -1,0 +1,160 @@
+"""What a person sees of a run: progress on stderr while it samples, then a short result."""
+
+import sys
+from collections import Counter
+from types import TracebackType
+
+from rich.console import Console as RichConsole
+from rich.markup import escape
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+from proc3s.events import (
+    AnswerReceived,
+    BatchEvaluated,
+    Event,
+    PromptRendered,
+    RoundEnded,
+    RunStarted,
+    SketchLoaded,
+)
+from proc3s.feedback import Diagnosis, Failure
+from proc3s.options import RunOptions
+from proc3s.summary import Summary
+
+_ORIGIN = {
+    "authored": "an authored answer (written by hand, not by a model)",
+    "recorded": "a recorded answer",
+    "manual": "an answer given by hand",
+    "live": "an answer",
+}
+
+
+class Console:
+    """Progress is shown only on a terminal; `quiet` prints nothing but errors."""
+
+    def __init__(self, options: RunOptions, quiet: bool) -> None:
+        self._options = options
+        self._quiet = quiet
+        self._err = RichConsole(stderr=True, quiet=quiet, highlight=False, soft_wrap=True)
+        self._progress = Progress(
+            TextColumn("  {task.description}"),
+            BarColumn(bar_width=24),
+            MofNCompleteColumn(),
+            TextColumn(
+                "samples  {task.fields[rate]}  furthest step {task.fields[reached]}  {task.fields[why]}"
+            ),
+            TimeElapsedColumn(),
+            console=self._err,
+            transient=True,
+            disable=quiet or not sys.stderr.isatty(),
+        )
+        self._task = self._progress.add_task(
+            "sampling", start=False, visible=False, rate="", reached=0, why=""
+        )
+        self._budget: int | None = None
+        self._why: Counter[str] = Counter()
+
+    def __enter__(self) -> "Console":
+        self._progress.start()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._progress.stop()
+
+    def update(self, event: Event) -> None:
+        """Show what an event says."""
+        if isinstance(event, RunStarted):
+            self._budget = event.samples
+        elif isinstance(event, PromptRendered):
+            size = sum(len(message.text) for message in event.messages)
+            self._say(f"round {event.round}: asking {self._options.llm} ({size} characters)")
+        elif isinstance(event, AnswerReceived):
+            completion = event.completion
+            self._say(
+                f"round {event.round}: {_ORIGIN.get(completion.source, 'an answer')} from {completion.model}"
+            )
+        elif isinstance(event, SketchLoaded):
+            self._loaded(event)
+        elif isinstance(event, BatchEvaluated):
+            self._sampled(event)
+        elif isinstance(event, RoundEnded):
+            self._diagnosis(event.round, event.diagnosis)
+
+    def _say(self, text: str) -> None:
+        self._err.print(escape(text))
+
+    def _loaded(self, event: SketchLoaded) -> None:
+        listed = ", ".join(event.parameters)
+        shown = listed if len(listed) <= 100 else f"{listed[:100]}…"
+        self._say(
+            f"round {event.round}: a program with {len(event.parameters)} open parameters {shown}".rstrip()
+        )
+        self._why.clear()
+        self._progress.reset(
+            self._task, total=self._budget, visible=True, rate="", reached=0, why="", start=True
+        )
+
+    def _sampled(self, event: BatchEvaluated) -> None:
+        self._why.update(name for name in event.violation if name)
+        task = self._progress.tasks[0]
+        self._progress.update(
+            self._task,
+            advance=len(event.accepted),
+            rate=f"{task.speed:,.0f}/s" if task.speed else "",
+            reached=max([task.fields["reached"], *event.reached]),
+            why="  ".join(f"{name} {count}" for name, count in self._why.most_common(3)),
+        )
+
+    def _diagnosis(self, round_: int, diagnosis: Diagnosis) -> None:
+        self._progress.update(self._task, visible=False)
+        self._say(f"round {round_}: no plan was accepted ({diagnosis.samples} samples)")
+        for failure in (*diagnosis.program_errors, *diagnosis.failures)[:3]:
+            self._say(f"  {failure.share:3d} %  {describe(failure)}")
+
+    def result(self, summary: Summary) -> None:
+        """The outcome in a few lines on stdout."""
+        if self._quiet:
+            return
+        out = RichConsole(highlight=False, soft_wrap=True)
+        out.print(_headline(summary))
+        if summary.error is None:
+            out.print(escape(f"goal     {_goal(summary)}"))
+        out.print(f"samples  {summary.samples} in {summary.rounds + 1} round(s), {_times(summary)}")
+        if summary.llm_source == "authored":
+            out.print("answer   authored (written by hand, not by a model)")
+        for step, action in enumerate(summary.plan or []):
+            args = ", ".join(f"{v:.2f}" if isinstance(v, float) else str(v) for v in action["args"])
+            out.print(escape(f"  {step:2d}  {action['skill']}({args})"))
+        for violation in summary.violations[:5]:
+            out.print(escape(f"  violated at step {violation['step']}: {violation['text']}"))
+        out.print(escape(f"folder   {summary.run_dir}"))
+
+
+def _headline(summary: Summary) -> str:
+    if summary.error is not None:
+        return f"[bold red]stopped[/]  {summary.task} (seed {summary.seed})"
+    if summary.solved:
+        steps = len(summary.plan or [])
+        return f"[bold green]solved[/]   {summary.task} (seed {summary.seed}), a plan of {steps} steps"
+    tail = "; a plan that violates constraints was executed" if summary.executed == "fallback" else ""
+    return f"[bold red]unsolved[/] {summary.task} (seed {summary.seed}){tail}"
+
+
+def _goal(summary: Summary) -> str:
+    if summary.goal_reached is None:
+        return f"not judged: {summary.goal_reason or 'no plan was executed'}"
+    return f"{'reached' if summary.goal_reached else 'missed'}: {summary.goal_reason}"
+
+
+def _times(summary: Summary) -> str:
+    return f"{summary.seconds['solve']:.2f} s solving, {summary.seconds['llm']:.2f} s LLM"
+
+
+def describe(failure: Failure) -> str:
+    """A failure on one line."""
+    if failure.step is not None:
+        return f"step {failure.step} ({failure.skill}): {failure.text}"
+    line = f" (line {failure.line}: {(failure.source or '').strip()})" if failure.line else ""
+    return f"{failure.kind}: {failure.text}{line}"

@@ -1,0 +1,70 @@
+"""`proc3s render-prompt`."""
+
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from proc3s.cli import arguments as a
+
+
+class Format(StrEnum):
+    """Formats of a rendering."""
+
+    text = "text"
+    markdown = "markdown"
+    json = "json"
+
+
+def render_prompt(
+    task: Annotated[
+        str | None,
+        typer.Argument(metavar="[TASK]", help="domain/task; with --check also a domain, or nothing"),
+    ] = None,
+    method: a.Method = None,
+    preset: a.Preset = None,
+    seed: a.Seed = None,
+    goal: a.Goal = None,
+    round_: Annotated[int, typer.Option("--round", min=0, help="feedback round; needs --from")] = 0,
+    from_: Annotated[
+        Path | None, typer.Option("--from", help="run folder that has the earlier rounds")
+    ] = None,
+    format_: Annotated[Format, typer.Option("--format")] = Format.text,
+    diff: Annotated[Path | None, typer.Option("--diff", help="compare with a rendering or a run")] = None,
+    check: Annotated[
+        Path | None,
+        typer.Option("--check", help="compare all renderings with approved files; exit 2 if they differ"),
+    ] = None,
+    update: Annotated[bool, typer.Option("--update", help="with --check: approve the renderings")] = False,
+    template_dir: a.TemplateDir = None,
+    plugin: a.Plugins = None,
+    domain_options: a.DomainOptions = None,
+    method_options: a.MethodOptions = None,
+) -> None:
+    """Print exactly what the LLM would be asked. Calls nobody."""
+    from proc3s.cli import renderings
+    from proc3s.cli.session import run_options
+    from proc3s.errors import UsageError
+    from proc3s.registry import open_registry
+
+    given = {
+        "method": method,
+        "preset": preset,
+        "seed": seed,
+        "goal": goal,
+        "template_dir": template_dir,
+        "plugins": plugin,
+        "domain_options": domain_options,
+        "method_options": method_options,
+    }
+    registry = open_registry(plugin or [])
+    if check is not None:
+        raise typer.Exit(renderings.check(registry, check, task, update, given))
+    if update:
+        raise UsageError("--update goes with --check")
+    if task is None:
+        raise UsageError("name a task, e.g. drawing/star")
+    options = run_options(task=task, **given)
+    messages = renderings.render(registry, options, round_, from_)
+    renderings.show(messages, format_.value, diff)

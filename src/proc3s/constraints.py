@@ -1,0 +1,71 @@
+"""Constraints: a margin for every transition, and the violations that negative margins are."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from proc3s.domain import Domain
+from proc3s.errors import Issue, SpecError
+from proc3s.world import Transition
+
+
+@dataclass(frozen=True)
+class Margin:
+    """How far a constraint is from being violated, in its own unit; negative when violated.
+
+    `details` fill the placeholders of the constraint's sentence.
+    """
+
+    value: float
+    details: Mapping[str, str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Violation:
+    """A constraint that a step of a plan violates; `step` counts from 0, `text` is for LLM and people."""
+
+    constraint: str
+    step: int
+    skill: str
+    margin: float
+    text: str
+
+
+def check(
+    domain: Domain, transition: Transition[object], step: int
+) -> tuple[dict[str, float], list[Violation]]:
+    """All margins of a transition by constraint, and its violations in the order of the spec.
+
+    A margin function returns a number, a `Margin`, a bool (True is fulfilled), or None where the
+    constraint does not apply. Raises SpecError if it returns anything else, or NaN.
+    """
+    margins: dict[str, float] = {}
+    violations: list[Violation] = []
+    for name, function in domain.margins.items():
+        spec = domain.spec.constraints[name]
+        margin = _margin(name, function(transition, **spec.args))
+        if margin is None:
+            continue
+        margins[name] = margin.value
+        if margin.value < -spec.tolerance:
+            text = _sentence(name, spec.says, margin.details)
+            violations.append(Violation(name, step, transition.action.skill, margin.value, text))
+    return margins, violations
+
+
+def _margin(name: str, value: object) -> Margin | None:
+    if isinstance(value, bool):
+        value = 1.0 if value else -1.0
+    if isinstance(value, int | float):
+        value = Margin(float(value))
+    if value is None or (isinstance(value, Margin) and value.value == value.value):
+        return value
+    message = f"returned {value!r}, not a margin (a finite number, a Margin, a bool or None)"
+    raise SpecError([Issue(f"constraint {name}", "target", message)])
+
+
+def _sentence(name: str, says: str, details: Mapping[str, str]) -> str:
+    try:
+        return says.format_map(details)
+    except (KeyError, ValueError, IndexError) as error:
+        message = f"the margin carries no detail {error} ({', '.join(details) or 'it carries none'})"
+        raise SpecError([Issue(f"constraint {name}", "says", message)]) from error

@@ -1,0 +1,71 @@
+"""The conversation with the LLM: earlier rounds become messages, an answer becomes a program."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from proc3s.events import AnswerReceived, Emit, PromptRendered
+from proc3s.feedback import Diagnosis
+from proc3s.llms import LLM, Message, Request, Source, digest
+from proc3s.problem import Problem
+from proc3s.prompts import Prompter
+from proc3s.sketch.extract import extract_program
+
+
+@dataclass(frozen=True)
+class Exchange:
+    """An answer of the LLM and what became of it."""
+
+    answer: str
+    diagnosis: Diagnosis
+
+
+@dataclass(frozen=True)
+class Proposal:
+    """An answer, and how to get the program out of it (raises SketchError if it has none)."""
+
+    answer: str
+    source: Source
+    program: Callable[[], str]
+    round: int = 0
+    """Names the round in the log and seeds its random draws."""
+
+
+Propose: TypeAlias = Callable[[int, Sequence[Exchange]], Proposal]
+
+
+def conversation(prompter: Prompter, problem: Problem, history: Sequence[Exchange]) -> tuple[Message, ...]:
+    """All messages up to the next answer: system, worked examples, task, then round by round."""
+    messages = [prompter.system(problem), *prompter.examples(problem), prompter.task(problem)]
+    for exchange in history:
+        messages.append(Message(role="assistant", kind="reply", text=exchange.answer))
+        messages.append(prompter.feedback(problem, exchange.diagnosis))
+    return tuple(messages)
+
+
+def ask_llm(llm: LLM, prompter: Prompter, problem: Problem, emit: Emit) -> Propose:
+    """A proposer that renders the conversation and asks a language model."""
+
+    def propose(round_: int, history: Sequence[Exchange]) -> Proposal:
+        folder = problem.domain.spec.folder
+        messages = conversation(prompter, problem, history)
+        emit(PromptRendered(round=round_, sha256=digest(messages), messages=messages))
+        completion = llm.complete(
+            Request(
+                messages=messages,
+                task=problem.name,
+                template=prompter.method.template,
+                seed=problem.seed,
+                round=round_,
+                bundled=folder / "answers" if folder else None,
+            )
+        )
+        emit(AnswerReceived(round=round_, completion=completion))
+        return Proposal(completion.text, completion.source, lambda: extract_program(completion.text), round_)
+
+    return propose
+
+
+def given_program(program: str, origin: Source = "none", round_: int = 0) -> Propose:
+    """A proposer of one program that is there already; `round_` says whose random draws it takes."""
+    return lambda _, history: Proposal(program, origin, lambda: program, round_)

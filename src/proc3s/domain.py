@@ -1,0 +1,91 @@
+"""A domain at work: its spec with what plugins attach, and its targets, imported when first used."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from pydantic import ValidationError
+
+from proc3s.errors import Issue, SpecError, UsageError
+from proc3s.specs import DomainSpec, ParamSpec, SamplerSpec, Target, TaskSpec
+from proc3s.state import Parameter, Signature, State, StateModel
+
+if TYPE_CHECKING:
+    from proc3s.world import World
+
+
+@dataclass(frozen=True)
+class Domain:
+    """Plain data (it pickles); what it imports is cached where it is used."""
+
+    spec: DomainSpec
+    samplers: tuple[SamplerSpec, ...]
+
+    def __reduce__(self) -> tuple[type["Domain"], tuple[DomainSpec, tuple[SamplerSpec, ...]]]:
+        return Domain, (self.spec, self.samplers)
+
+    @cached_property
+    def states(self) -> StateModel:
+        """The state classes."""
+        return StateModel(self.spec.types, self.spec.state)
+
+    @cached_property
+    def _skills(self) -> dict[str, Callable[..., Any]]:
+        return {name: spec.load() for name, spec in self.spec.skills.items()}
+
+    def skill(self, name: str) -> Callable[..., Any]:
+        """The function `f(world, *args) -> telemetry` of a skill."""
+        return self._skills[name]
+
+    @cached_property
+    def margins(self) -> dict[str, Callable[..., Any]]:
+        """The margin function of every constraint, in the order in which they are checked."""
+        return {name: spec.load() for name, spec in self.spec.constraints.items()}
+
+    def make_world(self, target: Target | None = None) -> "World[Any]":
+        """A fresh world; `target` names another one than the reference world."""
+        target = target or self.spec.world
+        world: World[Any] = target.load()(self, **target.args)
+        return world
+
+    def scene(self, task: TaskSpec, seed: int, options: dict[str, Any] | None = None) -> State:
+        """The initial state of a task for a seed; `options` replace arguments of its scene generator.
+
+        Raises UsageError for options the generator does not take, SpecError for a scene that does not
+        fit the state type.
+        """
+        rng = np.random.default_rng(seed)
+        make = task.initial.load()
+        try:
+            data = make(rng, **{**task.initial.args, **(options or {})})
+        except (TypeError, ValueError) as error:
+            if options:
+                raise UsageError(f"domain options of {task.name}: {error}") from error
+            raise
+        try:
+            return self.states.parse(data)
+        except ValidationError as error:
+            where = f"{task.initial.target}"
+            raise SpecError(
+                [Issue(where, ".".join(map(str, d["loc"])), d["msg"]) for d in error.errors()]
+            ) from error
+
+    def object_names(self, state: State) -> tuple[str, ...]:
+        """Names of the objects of a state, in its order."""
+        things = getattr(state, self.spec.objects) if self.spec.objects else ()
+        return tuple(things) if isinstance(things, dict) else tuple(thing.name for thing in things)
+
+    def signatures(self, state: State) -> tuple[Signature, ...]:
+        """The skills as a program that starts in `state` may call them."""
+        names = self.object_names(state)
+        return tuple(
+            Signature(s.name, tuple(_parameter(n, p, names) for n, p in s.params.items()))
+            for s in self.spec.skills.values()
+        )
+
+
+def _parameter(name: str, spec: ParamSpec, objects: tuple[str, ...]) -> Parameter:
+    choices = objects if spec.type == "object" else spec.choices
+    return Parameter(name, spec.type, spec.min, spec.max, spec.noise, choices)

@@ -1,0 +1,62 @@
+"""Errors meant for people: a message without a traceback, and the exit code that goes with it."""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from difflib import get_close_matches
+from typing import ClassVar
+
+
+class Proc3sError(Exception):
+    """Something a person can mend. The message says what was wrong, where, and what to do."""
+
+    exit_code: ClassVar[int] = 2
+
+
+class UsageError(Proc3sError):
+    """A wrong name, option or file on the command line (exit code 2)."""
+
+
+class LLMError(Proc3sError):
+    """The language model could not be asked or did not answer (exit code 3)."""
+
+    exit_code: ClassVar[int] = 3
+
+
+class Pending(Proc3sError):
+    """An answer is to be given by a person later; the run can be continued then (exit code 4)."""
+
+    exit_code: ClassVar[int] = 4
+
+
+class Interrupted(Proc3sError):
+    """Ctrl-C (exit code 130)."""
+
+    exit_code: ClassVar[int] = 130
+
+
+@dataclass(frozen=True)
+class Issue:
+    """One mistake in a spec: `where` is `path:line` or a name, `field` a dotted path."""
+
+    where: str
+    field: str
+    message: str
+
+    def __str__(self) -> str:
+        return ": ".join(part for part in (self.where, self.field, self.message) if part)
+
+
+class SpecError(Proc3sError):
+    """A spec file or a registered spec is wrong; all its mistakes at once (exit code 2)."""
+
+    def __init__(self, issues: Sequence[Issue]) -> None:
+        self.issues = tuple(issues)
+        super().__init__("\n".join(str(issue) for issue in self.issues))
+
+
+def did_you_mean(name: str, known: Iterable[str]) -> str:
+    """A hint to append to a message: the nearest known name, or all of them if none is near."""
+    names = sorted(known)
+    if near := get_close_matches(name, names, n=1, cutoff=0.6):
+        return f"; did you mean {near[0]!r}?"
+    return f"; there is {', '.join(names)}" if names else ""

@@ -1,0 +1,158 @@
+"""Options of a run as plain data, and the wiring of the chosen plugins into a `Setup`."""
+
+import importlib
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from pydantic import BaseModel, Field
+
+from proc3s import specs
+from proc3s.domain import Domain
+from proc3s.errors import UsageError, did_you_mean
+from proc3s.executors import Executor
+from proc3s.llms import LLM
+from proc3s.planner import Setup
+from proc3s.problem import Problem
+from proc3s.prompts import Prompter
+from proc3s.registry import Registry
+from proc3s.samplers import Space
+from proc3s.solving import Solver
+from proc3s.specfile import scalar, validate
+
+DEFAULT_LLM = "replay"
+DEFAULT_PRESET = "paper"
+
+
+class RunOptions(specs.Spec):
+    """What a run was asked to do; with the same options it does the same again."""
+
+    task: str
+    llm: str = DEFAULT_LLM
+    method: str = "proc3s"
+    solver: str | None = None
+    preset: str = DEFAULT_PRESET
+    executor: str = "serial"
+    seed: int = Field(0, ge=0)
+    goal: str | None = None
+    samples: int | None = Field(None, ge=1)
+    feedback: int | None = Field(None, ge=0)
+    template_dir: Path | None = None
+    plugins: tuple[Path, ...] = ()
+    domain_options: dict[str, str] = Field(default_factory=dict)
+    method_options: dict[str, str] = Field(default_factory=dict)
+    solver_options: dict[str, str] = Field(default_factory=dict)
+    llm_options: dict[str, str] = Field(default_factory=dict)
+
+
+def key_values(pairs: list[str]) -> dict[str, str]:
+    """`["count=7"]` -> {"count": "7"}. Raises UsageError for a pair without `=`."""
+    for pair in pairs:
+        if "=" not in pair:
+            raise UsageError(f"an option is given as key=value, not {pair!r}")
+    return dict(pair.split("=", 1) for pair in pairs)
+
+
+def select_method(registry: Registry, options: RunOptions) -> specs.MethodSpec:
+    """The method with what the command line changes in it."""
+    method = registry.get(specs.MethodSpec, options.method)
+    changes: dict[str, Any] = dict(options.method_options)
+    if options.feedback is not None:
+        changes["rounds"] = options.feedback
+    return validate(specs.MethodSpec, {**method.model_dump(), **changes}, f"method {method.name}")
+
+
+def make_problem(registry: Registry, options: RunOptions, goal_needed: bool = True) -> Problem:
+    """The problem of a task and a seed, before there is a program.
+
+    Raises UsageError if the task has no instruction of its own and `goal` gives none.
+    """
+    domain, task = registry.task(options.task)
+    goal = options.goal if options.goal is not None else task.instruction
+    if goal is None and goal_needed:
+        raise UsageError(f'{options.task} has no instruction of its own; give one with --goal "…"')
+    preset = registry.get(specs.PresetSpec, options.preset)
+    budget = {**domain.spec.budget, **task.budget}
+    if options.samples is None and preset.budget not in budget:
+        raise UsageError(f"{options.task} has no budget {preset.budget!r}; give --samples")
+    state = domain.scene(task, options.seed, {k: scalar(v) for k, v in options.domain_options.items()})
+    return Problem(
+        domain=domain,
+        task=task,
+        scene=json.dumps(domain.states.dump(state)),
+        goal=goal or "",
+        seed=options.seed,
+        samples=options.samples or budget[preset.budget],
+    )
+
+
+def make_prompter(registry: Registry, options: RunOptions, problem: Problem) -> Prompter:
+    """The prompter of the chosen method; folders in the order user, domain, plugins."""
+    method = select_method(registry, options)
+    if options.template_dir is not None and not options.template_dir.is_dir():
+        raise UsageError(f"there is no template folder {options.template_dir}")
+    own = [options.template_dir] if options.template_dir else []
+    return Prompter(
+        method=method,
+        preset=registry.get(specs.PresetSpec, options.preset),
+        folders=(*own, *_template_folders(registry, problem.domain)),
+        context=registry.plugins.prompt_context(problem, method),
+    )
+
+
+def _template_folders(registry: Registry, domain: Domain) -> list[Path]:
+    registered = [spec.folder for spec in registry.all(specs.TemplatesSpec).values()]
+    own = domain.spec.folder / "templates" if domain.spec.folder else None
+    return [*([own] if own and own.is_dir() else []), *reversed(registered)]
+
+
+def make_setup(registry: Registry, options: RunOptions, problem: Problem, picture: Path | None) -> Setup:
+    """The parts of the second stage: solver, executor, method and preset."""
+    method = select_method(registry, options)
+    solver = registry.get(specs.SolverSpec, options.solver or method.solver)
+    solver_options = part_options(solver, options.solver_options)
+    make = solver.load()
+    executor: Executor = registry.get(specs.ExecutorSpec, options.executor).load()()
+
+    def make_solver(space: Space, budget: int, rng: np.random.Generator) -> Solver:
+        made: Solver = make(space, budget, rng, solver_options)
+        return made
+
+    return Setup(
+        problem=problem,
+        method=method,
+        preset=registry.get(specs.PresetSpec, options.preset),
+        make_solver=make_solver,
+        executor=executor,
+        picture=picture,
+    )
+
+
+def part_options(spec: specs.SolverSpec | specs.LLMSpec, given: dict[str, str]) -> BaseModel | None:
+    """The options of a solver or backend, validated by its own model. Raises SpecError or UsageError."""
+    where = f"{spec.kind.removesuffix('s')} {spec.name}"
+    if spec.options is None:
+        if given:
+            raise UsageError(f"{where} takes no options, not {next(iter(given))!r}")
+        return None
+    module, _, name = spec.options.partition(":")
+    model: type[BaseModel] = getattr(importlib.import_module(module), name)
+    return validate(model, given, where)
+
+
+def make_llm(registry: Registry, options: RunOptions) -> LLM:
+    """The backend that `--llm` names: `NAME`, `NAME:ARGUMENT`, `NAME/MODEL`, or what a plugin resolves."""
+    known = registry.all(specs.LLMSpec)
+    for separator in (":", "/"):
+        name, _, rest = options.llm.partition(separator)
+        if name in known:
+            break
+    else:
+        found = registry.plugins.resolve_llm(options.llm)
+        if not isinstance(found, specs.LLMSpec):
+            hint = did_you_mean(options.llm, known)
+            raise UsageError(f"there is no LLM {options.llm!r}{hint} or PROVIDER/MODEL")
+        name, rest, known = found.name, options.llm, {found.name: found}
+    llm: LLM = known[name].load()(rest, part_options(known[name], options.llm_options))
+    return llm

@@ -1,0 +1,159 @@
+"""The two-stage loop: a task becomes a program, a program becomes a plan that a world has accepted.
+
+Read this first. Stage 1: `propose` asks for a program (`conversation.py`). Stage 2: the program runs in its
+box (`sketch/`), a solver draws its open parameters (`solving.py`), every grounded plan is rolled out in the
+world (`problem.py`). If no sample is accepted, a diagnosis of the failures goes into the next question.
+"""
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import TypeAlias
+
+import numpy as np
+
+from proc3s.clock import Clock
+from proc3s.conversation import Exchange, Proposal, Propose
+from proc3s.errors import Interrupted, Proc3sError
+from proc3s.evaluation import Evaluator, Sketch
+from proc3s.events import BatchEvaluated, Emit, ProgramExtracted, RoundEnded, SketchLoaded
+from proc3s.execution import Execution, execute
+from proc3s.executors import Executor
+from proc3s.feedback import Diagnosis, diagnose
+from proc3s.jitter import Jitter
+from proc3s.problem import Problem, Trial
+from proc3s.samplers import Space
+from proc3s.setup_code import setup_code
+from proc3s.sketch.box import BoxedSketch, Limits, Program
+from proc3s.sketch.errors import SketchError
+from proc3s.solving import Search, Solver, solve
+from proc3s.specs import MethodSpec, PresetSpec
+from proc3s.state import Plan, source_text
+
+MakeSolver: TypeAlias = Callable[[Space, int, np.random.Generator], Solver]
+
+
+@dataclass(frozen=True)
+class Setup:
+    """Everything a run is made of, but for the one who proposes programs."""
+
+    problem: Problem
+    method: MethodSpec
+    preset: PresetSpec
+    make_solver: MakeSolver
+    executor: Executor
+    limits: Limits = field(default_factory=Limits)
+    picture: Path | None = None
+
+
+@dataclass(frozen=True)
+class Attempt:
+    """What one program came to: the accepted trial, or a plan to fall back on, and a diagnosis."""
+
+    diagnosis: Diagnosis
+    solution: Trial | None = None
+    fallback: Plan | None = None
+    samples: int = 0
+    evaluations: int = 0
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a run came to. `error` is why it could not be carried out to its end."""
+
+    attempts: tuple[Attempt, ...]
+    proposals: tuple[Proposal, ...]
+    execution: Execution | None
+    clock: Clock
+    error: Proc3sError | None = None
+
+
+def plan(setup: Setup, propose: Propose, emit: Emit) -> Outcome:
+    """Ask, search, and ask again with feedback, until a plan is accepted or the rounds are used up."""
+    clock, proposals, attempts, history = Clock(), list[Proposal](), list[Attempt](), list[Exchange]()
+    execution, error = None, None
+    try:
+        for round_ in range(setup.method.rounds + 1):
+            with clock("llm"):
+                proposals.append(propose(round_, history))
+            with clock("solve"):
+                attempts.append(attempt := _attempt(setup, proposals[-1], emit))
+            if attempt.solution or (setup.method.samples == "none" and attempt.fallback):
+                break
+            emit(RoundEnded(round=round_, diagnosis=attempt.diagnosis))
+            history.append(Exchange(proposals[-1].answer, attempt.diagnosis))
+        with clock("execute"):
+            execution = _execute(setup, attempts, emit)
+    except Proc3sError as reason:
+        error = reason
+    except KeyboardInterrupt:
+        error = Interrupted("interrupted")
+    return Outcome(tuple(attempts), tuple(proposals), execution, clock, error)
+
+
+def _attempt(setup: Setup, proposal: Proposal, emit: Emit) -> Attempt:
+    """Ground one program: check it, search its parameters, diagnose what failed."""
+    try:
+        source = proposal.program()
+        emit(ProgramExtracted(round=proposal.round, source=source))
+        setup = replace(setup, problem=replace(setup.problem, program=source))
+        with _open_sketch(setup, proposal.round, emit) as (sketch, fallback):
+            return _search(setup, sketch, fallback, proposal.round, emit)
+    except SketchError as error:
+        return Attempt(diagnose((), error))
+
+
+@contextmanager
+def _open_sketch(setup: Setup, round_: int, emit: Emit) -> Iterator[tuple[Sketch, Plan | None]]:
+    """The program in its box, as the method wants it, and the plan to fall back on if it has one."""
+    problem, method = setup.problem, setup.method
+    program = Program(
+        source=problem.program,
+        answer=method.answer,
+        prelude=setup_code(problem.domain),
+        initial=source_text(problem.initial),
+        signatures=problem.domain.signatures(problem.initial),
+        samplers=problem.domain.samplers,
+        seed=problem.seed,
+    )
+    with BoxedSketch(program, setup.limits) as boxed:
+        parameters = {name: source_text(sampler) for name, sampler in boxed.space.samplers.items()}
+        emit(SketchLoaded(round=round_, parameters=parameters, log=boxed.log))
+        if method.fallback == "none" and method.perturb == "none":
+            yield boxed, None
+            return
+        centre = boxed.plans(np.full((1, boxed.space.dim), 0.5))
+        unperturbed = centre.plan(0)
+        yield (Jitter(centre) if method.perturb == "gaussian" else boxed), unperturbed
+
+
+def _search(setup: Setup, sketch: Sketch, fallback: Plan | None, round_: int, emit: Emit) -> Attempt:
+    budget = {"none": 0, "one": 1, "budget": setup.problem.samples}[setup.method.samples]
+    evaluator = Evaluator(setup.problem, sketch, setup.executor)
+    # A key of its own for every round, so that no search draws the numbers that made the scene.
+    rng = np.random.default_rng(np.random.SeedSequence(setup.problem.seed, spawn_key=(round_,)))
+    solver = setup.make_solver(sketch.space, budget, rng)
+    search: Search = solve(
+        sketch.space,
+        solver,
+        evaluator,
+        budget,
+        lambda trials: emit(BatchEvaluated.from_trials(round_, trials)) if trials else None,
+    )
+    return Attempt(
+        diagnosis=diagnose(search.trials, search.halted),
+        solution=search.solution,
+        fallback=fallback if setup.method.fallback == "last_plan" else None,
+        samples=evaluator.samples,
+        evaluations=evaluator.evaluations,
+    )
+
+
+def _execute(setup: Setup, attempts: list[Attempt], emit: Emit) -> Execution | None:
+    """Carry out the accepted plan, or the latest one to fall back on, and let the judge look."""
+    if solution := attempts[-1].solution:
+        assert solution.plan is not None
+        return execute(setup.problem, solution.plan, "solution", setup.picture, emit)
+    plans = [attempt.fallback for attempt in attempts if attempt.fallback]
+    return execute(setup.problem, plans[-1], "fallback", setup.picture, emit) if plans else None

@@ -1,0 +1,149 @@
+"""Plugins: entry points and loose files, each loaded in its own `try`, wrapped in one typed manager."""
+
+import importlib.metadata
+import importlib.util
+import sys
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import pluggy
+
+from proc3s import hookspecs
+from proc3s.errors import Proc3sError, SpecError, UsageError, did_you_mean
+from proc3s.specs import Spec
+
+GROUP = "proc3s"
+LOOSE_FILE = "proc3s_plugins.py"
+
+
+@dataclass(frozen=True)
+class PluginStatus:
+    """What became of one plugin: `error` is None if it loaded."""
+
+    name: str
+    source: str
+    version: str | None = None
+    error: str | None = None
+
+
+class PluginManager:
+    """Loads plugins and calls their hooks; a broken plugin is recorded and never stops the others.
+
+    `files` are loose plugin files named on the command line: those must load, or SpecError / UsageError
+    is raised. `proc3s_plugins.py` in the working directory is loaded too.
+    """
+
+    def __init__(self, files: Sequence[Path] = ()) -> None:
+        self._manager = pluggy.PluginManager(GROUP)
+        self._manager.add_hookspecs(hookspecs)
+        self._explicit = {str(path) for path in files}
+        self._registered: dict[str, list[tuple[str, Spec]]] = {}
+        self.statuses: dict[str, PluginStatus] = {}
+        for entry_point in importlib.metadata.entry_points(group=GROUP):
+            dist = entry_point.dist
+            source, version = (dist.name, dist.version) if dist else ("unknown", None)
+            self._load(PluginStatus(entry_point.name, source, version), entry_point.load)
+        loose = Path.cwd() / LOOSE_FILE
+        for path in [*([loose] if loose.is_file() else []), *files]:
+            self._load(PluginStatus(path.stem, str(path)), partial(_import_file, path))
+
+    def _load(self, status: PluginStatus, load: Callable[[], Any]) -> None:
+        if status.name in self.statuses:
+            other = self.statuses[status.name]
+            status = PluginStatus(f"{status.name} ({status.source})", status.source, status.version)
+            self._fail(status, f"the name is taken by the plugin of {other.source}")
+            return
+        self.statuses[status.name] = status
+        try:
+            plugin = load()
+            self._refuse_misspelled(plugin)
+            self._manager.register(plugin, name=status.name)
+        except Exception as error:
+            self._fail(status, error)
+
+    def _fail(self, status: PluginStatus, error: Exception | str) -> None:
+        """Record a failure; one in a file that the user named is the user's to see at once."""
+        text = str(error) if isinstance(error, Proc3sError | str) else f"{type(error).__name__}: {error}"
+        self.statuses[status.name] = PluginStatus(status.name, status.source, status.version, text)
+        if self._manager.has_plugin(status.name):
+            self._manager.unregister(name=status.name)
+        if status.source in self._explicit:
+            if isinstance(error, SpecError):
+                raise error
+            raise UsageError(f"plugin {status.source}: {text}")
+
+    def _refuse_misspelled(self, plugin: Any) -> None:
+        known = {name for name in vars(hookspecs) if hasattr(getattr(hookspecs, name), "proc3s_spec")}
+        for name in dir(plugin):
+            if hasattr(getattr(plugin, name, None), "proc3s_impl") and name not in known:
+                raise UsageError(f"there is no hook {name!r}{did_you_mean(name, known)}")
+
+    @property
+    def failures(self) -> list[PluginStatus]:
+        """The plugins that did not load, or whose hooks raised."""
+        return [status for status in self.statuses.values() if status.error is not None]
+
+    def specs(self, kind: str) -> list[tuple[str, Spec]]:
+        """(plugin name, spec) of everything that `register_<kind>` brings; each plugin is asked once."""
+        if kind not in self._registered:
+            self._registered[kind] = [
+                item for name in list(self.statuses) for item in self._ask(name, f"register_{kind}")
+            ]
+        return self._registered[kind]
+
+    def _ask(self, name: str, hook: str) -> list[tuple[str, Spec]]:
+        found: list[tuple[str, Spec]] = []
+        register = getattr(self._manager.get_plugin(name), hook, None)
+        if register is None or not hasattr(register, "proc3s_impl"):
+            return []
+        try:
+            register(lambda spec: found.append((name, _checked(spec, hook))))
+        except Exception as error:
+            self._fail(self.statuses[name], error)
+            return []
+        return found
+
+    def resolve_llm(self, model: str) -> Spec | None:
+        """The spec of the backend that a plugin offers for a model name."""
+        spec: Spec | None = self._manager.hook.resolve_llm(model=model)
+        return spec
+
+    def prompt_context(self, problem: Any, method: Any) -> dict[str, Any]:
+        """What plugins add to the variables of the prompt."""
+        added: dict[str, Any] = {}
+        for context in self._manager.hook.prompt_context(problem=problem, method=method):
+            if isinstance(context, Mapping):
+                added.update(context)
+        return added
+
+    def on_event(self, event: Any) -> None:
+        """Tell every plugin; one that raises is recorded and not told again."""
+        for implementation in list(self._manager.hook.on_event.get_hookimpls()):
+            try:
+                implementation.function(event)
+            except Exception as error:
+                self._fail(self.statuses[implementation.plugin_name], error)
+
+
+def _checked(spec: Any, hook: str) -> Spec:
+    if not isinstance(spec, Spec):
+        raise TypeError(f"{hook} registers specs, not {type(spec).__name__}")
+    return spec
+
+
+def _import_file(path: Path) -> ModuleType:
+    if not path.is_file():
+        raise UsageError(f"there is no file {path}")
+    name = f"proc3s_loose_{path.stem}"
+    spec = importlib.util.spec_from_file_location(name, path)
+    if spec is None or spec.loader is None:
+        raise UsageError(f"{path} is not a Python file")
+    # A loose file names its own functions as "<file stem>:name", so it is importable by its stem.
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = sys.modules[path.stem] = module
+    spec.loader.exec_module(module)
+    return module

@@ -1,0 +1,139 @@
+"""Prompts: Jinja templates rendered into messages, byte for byte the same every time."""
+
+import dataclasses
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import jinja2
+from jinja2.sandbox import SandboxedEnvironment
+
+from proc3s.errors import Issue, SpecError, UsageError, did_you_mean
+from proc3s.feedback import Diagnosis
+from proc3s.llms import Message, Role
+from proc3s.problem import Problem
+from proc3s.setup_code import setup_code
+from proc3s.specs import ExampleSpec, MethodSpec, PresetSpec
+from proc3s.state import State, source_text
+
+_TURN = re.compile(r"^<!-- (answer|feedback) -->\n", re.MULTILINE)
+
+
+@dataclass(frozen=True)
+class Prompter:
+    """Renders the messages of one method.
+
+    `folders` are searched for templates in order. Raises UsageError for a template that does not exist
+    and SpecError, with file and line, for one that does not render.
+    """
+
+    method: MethodSpec
+    preset: PresetSpec
+    folders: Sequence[Path]
+    context: Mapping[str, Any] = field(default_factory=dict)
+
+    def system(self, problem: Problem) -> Message:
+        """What is the same for every task of the domain."""
+        text = self._render(f"methods/{self.method.template}.j2", problem)
+        return Message(role="system", kind="system", text=text)
+
+    def task(self, problem: Problem) -> Message:
+        """The initial state and the goal."""
+        text = self._render("partials/task.j2", problem, initial=problem.initial, goal=problem.goal)
+        return Message(role="user", kind="task", text=text)
+
+    def examples(self, problem: Problem) -> Iterator[Message]:
+        """The worked examples, each as a conversation of its own."""
+        for example in problem.domain.spec.examples.values():
+            state = problem.domain.scene(example, example.seed)
+            text = self._render("partials/task.j2", problem, initial=state, goal=example.instruction)
+            yield Message(role="user", kind="example", text=text)
+            for kind, turn in example_turns(problem, example, self.method.answer):
+                role: Role = "assistant" if kind == "answer" else "user"
+                yield Message(role=role, kind="example", text=turn)
+
+    def feedback(self, problem: Problem, diagnosis: Diagnosis) -> Message:
+        """What the LLM is told about a round that failed."""
+        text = self._render("feedback.j2", problem, diagnosis=diagnosis)
+        return Message(role="user", kind="feedback", text=text)
+
+    def _render(self, name: str, problem: Problem, **variables: Any) -> str:
+        shared = {"domain": problem.domain.spec, "method": self.method, "preset": self.preset}
+        samplers = self.method.answer == "sketch"
+        try:
+            template = _environment(self.folders).get_template(name)
+            return template.render(
+                **self.context,
+                **shared,
+                setup_code=setup_code(problem.domain, samplers),
+                samplers=problem.domain.samplers if samplers else (),
+                **variables,
+            )
+        except jinja2.TemplateNotFound as error:
+            raise UsageError(self._not_found(str(error))) from error
+        except jinja2.TemplateSyntaxError as error:
+            where = f"{error.filename or name}:{error.lineno}"
+            raise SpecError([Issue(where, "", str(error.message))]) from error
+        except (jinja2.TemplateError, TypeError) as error:
+            raise SpecError([Issue(_template_line(error, name), "", str(error))]) from error
+
+    def _not_found(self, name: str) -> str:
+        known = {str(p.relative_to(f)) for f in self.folders for p in f.rglob("*.j2")}
+        return (
+            f"there is no template {name!r} in {', '.join(map(str, self.folders))}{did_you_mean(name, known)}"
+        )
+
+
+def _environment(folders: Sequence[Path]) -> SandboxedEnvironment:
+    environment = SandboxedEnvironment(
+        loader=jinja2.FileSystemLoader(folders),
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+        autoescape=False,
+    )
+    environment.filters["state_text"] = state_text
+    return environment
+
+
+def _template_line(error: Exception, name: str) -> str:
+    """`file:line` of the innermost template frame of an error raised while rendering."""
+    where, traceback = name, error.__traceback__
+    while traceback is not None:
+        if traceback.tb_frame.f_code.co_filename.endswith(".j2"):
+            where = f"{traceback.tb_frame.f_code.co_filename}:{traceback.tb_lineno}"
+        traceback = traceback.tb_next
+    return where
+
+
+def state_text(state: State, decimals: int = 2) -> str:
+    """A state as the LLM reads it: the call that builds it, one object a line, numbers rounded."""
+    lines = [f"{type(state).__name__}("]
+    for item in dataclasses.fields(state):
+        lines += _field_lines(item.name, getattr(state, item.name), decimals)
+    return "\n".join([*lines, ")"])
+
+
+def _field_lines(name: str, value: Any, decimals: int) -> list[str]:
+    if isinstance(value, tuple) and value:
+        return [f"    {name}=[", *(f"        {source_text(v, decimals)}," for v in value), "    ],"]
+    if isinstance(value, dict) and value:
+        inside = (f"        {k!r}: {source_text(v, decimals)}," for k, v in value.items())
+        return [f"    {name}={{", *inside, "    },"]
+    return [f"    {name}={source_text(value, decimals)},"]
+
+
+def example_turns(problem: Problem, example: ExampleSpec, kind: str) -> list[tuple[str, str]]:
+    """(answer | feedback, text) of a worked example for one kind of answer, in order.
+
+    They stand in `examples/NAME.KIND.md`; a line `<!-- feedback -->` or `<!-- answer -->` starts a turn.
+    """
+    folder = problem.domain.spec.folder or Path()
+    path = folder / "examples" / f"{example.name}.{kind}.md"
+    if not path.is_file():
+        raise SpecError([Issue(str(path), f"examples.{example.name}", "is missing")])
+    parts = _TURN.split("<!-- answer -->\n" + path.read_text(encoding="utf-8"))[1:]
+    return [(turn, text.strip() + "\n") for turn, text in zip(parts[::2], parts[1::2], strict=True)]

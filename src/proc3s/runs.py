@@ -1,0 +1,129 @@
+"""Run folders: an append-only log of events beside the files a person opens first."""
+
+import json
+import platform
+import re
+from collections.abc import Mapping
+from datetime import UTC, datetime
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from typing import Any
+
+from proc3s.errors import UsageError
+from proc3s.events import (
+    AnswerReceived,
+    Event,
+    PlanExecuted,
+    ProgramExtracted,
+    PromptRendered,
+    RunEnded,
+)
+from proc3s.llms import Message
+
+LOG = "events.jsonl"
+PACKAGES = ("proc3s", "numpy", "pydantic", "jinja2", "litellm", "pymunk", "pybullet")
+
+
+class RunFolder:
+    """Writes a run as it happens. Every line is whole when written, so a killed run can be read.
+
+    Raises UsageError if the folder cannot be made, or has something in it.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        try:
+            path.mkdir(parents=True, exist_ok=True)
+            if any(path.iterdir()):
+                raise UsageError(f"the folder {path} is not empty; give another one with --out")
+            self._log = (path / LOG).open("a", encoding="utf-8", errors="backslashreplace")
+        except OSError as error:
+            raise UsageError(f"the run folder {path} cannot be written: {error.strerror}") from error
+
+    def emit(self, event: Event) -> None:
+        """Append an event to the log and write the file that belongs to it."""
+        line = {"time": datetime.now(UTC).isoformat(timespec="milliseconds"), **event.model_dump(mode="json")}
+        self._log.write(json.dumps(line, ensure_ascii=False) + "\n")
+        self._log.flush()
+        if isinstance(event, PromptRendered):
+            self._write(f"prompt-{event.round}.md", markdown(event.messages))
+        elif isinstance(event, AnswerReceived):
+            self._write(f"answer-{event.round}.md", event.completion.text)
+        elif isinstance(event, ProgramExtracted):
+            self._write(f"program-{event.round}.py", event.source)
+        elif isinstance(event, PlanExecuted):
+            self._write("plan.json", _pretty(event.plan))
+            score = {"goal_reached": event.goal_reached, "goal_reason": event.goal_reason}
+            self._write("score.json", _pretty(score))
+        elif isinstance(event, RunEnded):
+            self._write("summary.json", _pretty(event.summary))
+
+    def _write(self, name: str, text: str) -> None:
+        """Whole or not at all: written beside and then renamed."""
+        part = self.path / f".{name}.part"
+        part.write_text(text, encoding="utf-8", errors="backslashreplace")
+        part.replace(self.path / name)
+
+    def close(self) -> None:
+        """Close the log."""
+        self._log.close()
+
+
+def _pretty(data: Any) -> str:
+    return json.dumps(data, indent=2, ensure_ascii=False) + "\n"
+
+
+def markdown(messages: tuple[Message, ...]) -> str:
+    """Messages as one Markdown document, a heading for each."""
+    return "\n".join(f"<!-- {m.role}: {m.kind} -->\n\n{m.text.rstrip()}\n" for m in messages)
+
+
+def new_folder(parent: Path, task: str, method: str, seed: int) -> Path:
+    """A name under `parent` that does not exist yet, sorting by time."""
+    stamp = datetime.now().strftime("%Y%m%d-%H%M%S")
+    base = f"{stamp}-{re.sub(r'[^A-Za-z0-9]+', '-', task)}-{method}-seed{seed}"
+    names = (base if n == 1 else f"{base}-{n}" for n in range(1, 10**6))
+    return next(parent / name for name in names if not (parent / name).exists())
+
+
+def versions() -> dict[str, str]:
+    """Versions of everything a result may depend on."""
+    found = {"python": platform.python_version(), "platform": platform.platform()}
+    for name in PACKAGES:
+        try:
+            found[name] = version(name)
+        except PackageNotFoundError:
+            continue
+    return found
+
+
+def read_events(run: Path) -> list[dict[str, Any]]:
+    """All whole events of a run folder; a last line cut off by a kill is left out.
+
+    Raises UsageError if it is no run folder.
+    """
+    log = run / LOG
+    if not log.is_file():
+        raise UsageError(f"{run} is no run folder (it has no {LOG})")
+    lines = log.read_text(encoding="utf-8").splitlines()
+    events = []
+    for number, line in enumerate(lines, start=1):
+        try:
+            events.append(json.loads(line))
+        except json.JSONDecodeError as error:
+            if number < len(lines):
+                raise UsageError(f"{log}:{number}: not valid JSON: {error.msg}") from error
+    return events
+
+
+def events_of(run: Path, name: str) -> list[dict[str, Any]]:
+    """The events of one type."""
+    return [event for event in read_events(run) if event["event"] == name]
+
+
+def started(run: Path) -> Mapping[str, Any]:
+    """The first event of a run: options, versions. Raises UsageError if it was cut off before."""
+    first = events_of(run, "run_started")
+    if not first:
+        raise UsageError(f"{run} was cut off before it began")
+    return first[0]

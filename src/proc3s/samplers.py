@@ -1,0 +1,102 @@
+"""Samplers: maps from the unit cube to values, so that every solver works with every sampler."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import numpy as np
+
+from proc3s.hookspecs import hookimpl
+from proc3s.specs import SamplerSpec
+from proc3s.state import FloatArray
+
+
+class Sampler(Protocol):
+    """`decode` maps points of [0, 1]^dim, shape (n, dim), to wire columns, shape (n, width)."""
+
+    @property
+    def dim(self) -> int:
+        """Dimensions of the unit cube that one value takes."""
+        ...
+
+    def decode(self, u: FloatArray) -> FloatArray:
+        """Values of n samples, one row each."""
+        ...
+
+
+@dataclass(frozen=True)
+class ContinuousSampler:
+    """A number, uniform between `min` and `max`. Raises ValueError if they are not finite and ordered."""
+
+    min: float
+    max: float
+    dim = 1
+
+    def __post_init__(self) -> None:
+        if not (np.isfinite(self.min) and np.isfinite(self.max)):
+            raise ValueError(f"bounds must be finite numbers, not {self.min} and {self.max}")
+        if self.min > self.max:
+            raise ValueError(f"min {self.min:g} is above max {self.max:g}")
+
+    def decode(self, u: FloatArray) -> FloatArray:
+        """Shape (n, 1) to (n, 1)."""
+        return self.min + (self.max - self.min) * u
+
+
+@dataclass(frozen=True)
+class DiscreteSampler:
+    """One of `values`, each equally likely; crosses as its index. Raises ValueError if there are none."""
+
+    values: Sequence[Any]
+    dim = 1
+
+    def __post_init__(self) -> None:
+        if not self.values:
+            raise ValueError("needs at least one value")
+
+    def decode(self, u: FloatArray) -> FloatArray:
+        """Shape (n, 1) to indices of shape (n, 1)."""
+        return np.minimum(np.floor(u * len(self.values)), len(self.values) - 1)
+
+
+@dataclass(frozen=True)
+class Space:
+    """The open parameters of a program, in order: each with its sampler."""
+
+    samplers: Mapping[str, Sampler]
+
+    @property
+    def dim(self) -> int:
+        """Dimensions of the unit cube that a solver searches."""
+        return sum(sampler.dim for sampler in self.samplers.values())
+
+    def decode(self, u: FloatArray) -> FloatArray:
+        """Points u of shape (n, dim) to wire rows of shape (n, columns)."""
+        columns, at = [], 0
+        for sampler in self.samplers.values():
+            columns.append(sampler.decode(u[:, at : at + sampler.dim]))
+            at += sampler.dim
+        return np.hstack(columns) if columns else np.empty((len(u), 0))
+
+
+@hookimpl
+def register_samplers(register: Callable[[SamplerSpec], None]) -> None:
+    """The two samplers of the paper."""
+    register(
+        SamplerSpec(
+            name="ContinuousSampler",
+            summary="A number, drawn uniformly between min and max.",
+            params={"min": "float", "max": "float"},
+            gives="float",
+            target="proc3s.samplers:ContinuousSampler",
+        )
+    )
+    register(
+        SamplerSpec(
+            name="DiscreteSampler",
+            summary="One of the given values, each equally likely.",
+            params={"values": "list"},
+            gives="choice",
+            target="proc3s.samplers:DiscreteSampler",
+        )
+    )

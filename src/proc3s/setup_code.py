@@ -1,0 +1,66 @@
+"""The set-up code of a domain: constants, state classes, samplers and `Action`, as Python.
+
+The prompt shows exactly the text that the program's box runs first.
+"""
+
+from collections.abc import Iterator
+
+from proc3s.domain import Domain
+from proc3s.specs import FieldSpec, SamplerSpec, TypeSpec
+from proc3s.state import split_type
+
+_HEADER = """\
+import math
+import random
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+"""
+
+_ACTION = '''\
+@dataclass
+class Action:
+    """One step of a plan: the name of a skill and its parameters in order."""
+
+    name: str
+    params: list = field(default_factory=list)
+'''
+
+
+def setup_code(domain: Domain, samplers: bool = True) -> str:
+    """Python source, the same for every scene of the domain; `samplers` includes their classes."""
+    blocks = [_HEADER, "\n".join(_constants(domain))]
+    blocks += [_state_class(name, domain.spec.types[name]) for name in domain.states.types]
+    blocks += [_sampler_class(spec) for spec in domain.samplers] if samplers else []
+    return "\n\n".join(block for block in [*blocks, _ACTION] if block)
+
+
+def _constants(domain: Domain) -> Iterator[str]:
+    for name, constant in domain.spec.constants.items():
+        yield f"{name} = {constant.value!r}" + (f"  # {constant.says}" if constant.says else "")
+    if domain.spec.constants:
+        yield ""
+
+
+def _class(name: str, summary: str, lines: list[str]) -> str:
+    body = "".join(f"    {line}\n" for line in lines) or "    pass\n"
+    return f'@dataclass\nclass {name}:\n    """{summary}"""\n\n{body}'
+
+
+def _state_class(name: str, spec: TypeSpec) -> str:
+    return _class(name, spec.summary, [_field(n, f) for n, f in spec.fields.items()])
+
+
+def _field(name: str, spec: FieldSpec) -> str:
+    container, inner = split_type(spec.type)
+    annotation = {"": inner, "list": f"list[{inner}]", "dict": f"dict[str, {inner}]"}[container]
+    default = "" if spec.required else f" = {spec.default!r}"
+    if isinstance(spec.default, list | dict):
+        default = f" = field(default_factory=lambda: {spec.default!r})"
+    comment = ", ".join(part for part in (spec.says, spec.unit) if part)
+    return f"{name}: {annotation}{default}" + (f"  # {comment}" if comment else "")
+
+
+def _sampler_class(spec: SamplerSpec) -> str:
+    return _class(spec.name, spec.summary, [f"{n}: {t}" for n, t in spec.params.items()])

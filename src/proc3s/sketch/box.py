@@ -1,0 +1,176 @@
+"""The boxed sketch: a program of a language model, loaded in a locked worker process of its own."""
+
+import json
+import time
+import weakref
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from proc3s.errors import Proc3sError
+from proc3s.samplers import Space
+from proc3s.sketch.boxed.wire import ERROR, LOAD, LOADED, PROBE, PROBED
+from proc3s.sketch.channel import Channel, as_rows, lie
+from proc3s.sketch.columns import Columns
+from proc3s.sketch.contract import OpenParameter, in_order, issue, open_parameters, space_of
+from proc3s.sketch.errors import SketchContractError, SketchCrash, SketchError
+from proc3s.sketch.limits import Limits
+from proc3s.sketch.process import launcher
+from proc3s.sketch.protocol import CONTENTS, FAULT, PROBLEMS, Contents, Malformed, Replies, error_of, parse
+from proc3s.sketch.text import Source, clean, message
+from proc3s.specs import SamplerSpec
+from proc3s.state import FloatArray, PlanBatch, Signature
+
+__all__ = ["BoxedSketch", "Limits", "Program", "prewarm"]
+
+
+@dataclass(frozen=True)
+class Program:
+    """A program and all that the box must know to run it: plain data.
+
+    `prelude` is trusted Python that defines the constants, the mutable classes of the state, a class for
+    each sampler (same name and fields as its spec) and `Action(name, params)`; `initial` is a trusted
+    expression that builds the initial state from them.
+    """
+
+    source: str
+    answer: Literal["sketch", "program", "plan"]
+    prelude: str
+    initial: str
+    signatures: tuple[Signature, ...]
+    samplers: tuple[SamplerSpec, ...]
+    seed: int = 0
+
+
+class BoxedSketch:
+    """A loaded program. A context manager; `close` may be called any number of times.
+
+    `space` holds its open parameters in the order of gen_plan, `log` what it printed while loading.
+    Raises SketchError if the program does not load or breaks the contract, SandboxUnavailable if it
+    cannot be locked in.
+    """
+
+    space: Space
+    log: str
+
+    def __init__(self, program: Program, limits: Limits = Limits()) -> None:  # noqa: B008 - frozen
+        self._program = program
+        self._limits = limits
+        self._source = Source(program.source)
+        self._columns = Columns(program.signatures)
+        self._next_sample = 0
+        _check_size(program.source, limits)
+        self._channel = Channel(launcher().take(limits.memory, limits.cpu), self._source, limits)
+        self._end = weakref.finalize(self, self._channel.close)
+        try:
+            self._parameters = self._load()
+        except BaseException:
+            self.close()
+            raise
+        self.space = space_of(self._parameters)
+
+    def __enter__(self) -> "BoxedSketch":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """End the worker."""
+        self._end()
+
+    def plans(self, u: FloatArray, first: int | None = None) -> PlanBatch:
+        """The plans for points u of the unit cube, shape (n, dim).
+
+        Samples that fail land in the batch's `errors`. If the program hangs, crashes or exceeds a limit, the
+        box closes and the SketchError that is raised has the finished samples as `done`. Samples are
+        numbered over the life of the box, and the number seeds `random`; `first` sets the number of the
+        first one, to run a sample of an earlier box again. Raises ValueError on a wrong shape.
+        """
+        if u.ndim != 2 or u.shape[1] != self.space.dim:
+            raise ValueError(f"u must have shape (n, {self.space.dim}), not {u.shape}")
+        if not self._end.alive:
+            raise SketchCrash("the program's process has ended")
+        first = self._next_sample if first is None else first
+        replies = Replies(first, len(u), self._source, self._limits)
+        try:
+            self._channel.run(as_rows(self.space.decode(u)), replies)
+        except SketchError as error:
+            self.close()
+            error.done = self._columns.batch(replies)
+            raise
+        except BaseException:
+            self.close()
+            raise
+        self._next_sample = first + len(u)
+        return self._checked(self._columns.batch(replies), replies)
+
+    def values(self, u_row: FloatArray) -> dict[str, float | int | str | bool]:
+        """What the parameters of gen_plan are at one point of the cube, by name."""
+        columns = self.space.decode(u_row.reshape(1, -1))[0].tolist()
+        return {p.name: p.value(column) for p, column in zip(self._parameters, columns, strict=True)}
+
+    def _checked(self, batch: PlanBatch, replies: Replies) -> PlanBatch:
+        if len(batch) < replies.done:
+            self.close()
+            error = lie(Malformed("a plan does not fit its skills"))
+            error.done = batch
+            raise error
+        return batch
+
+    def _load(self) -> list[OpenParameter]:
+        """Load, check the contract, and return the parameters; all breaches are raised at once."""
+        self._channel.wait_until_ready()
+        deadline = time.monotonic() + self._limits.load
+        try:
+            contents = self._contents(deadline)
+            self.log = clean(contents.log, self._limits.printed)
+            parameters, issues = open_parameters(contents, self._program.samplers, self._source)
+            body = json.dumps([p.centre for p in parameters]).encode()
+            _, answer = self._channel.ask(PROBE, body, PROBED, deadline)
+            problems = contents.problems + parse(PROBLEMS, answer)
+        except Malformed as error:
+            raise lie(error) from error
+        issues += [issue(text, line, self._source) for text, line in problems]
+        if issues:
+            raise SketchContractError.of(in_order(issues))
+        if any(p.sampler is None for p in parameters):
+            raise lie(Malformed("a parameter has no sampler"))
+        return parameters
+
+    def _contents(self, deadline: float) -> Contents:
+        body = json.dumps(_request(self._program, self._limits)).encode()
+        kind, answer = self._channel.ask(LOAD, body, LOADED, deadline)
+        if kind != ERROR:
+            return parse(CONTENTS, answer)
+        fault = parse(FAULT, answer)
+        if fault.kind == "prelude":
+            raise Proc3sError(f"the domain's classes or initial state do not run: {message(fault.message)}")
+        raise error_of(fault, self._source)
+
+
+def prewarm(limits: Limits = Limits()) -> None:  # noqa: B008 - frozen
+    """Start a worker for the next BoxedSketch with these limits now. Raises SandboxUnavailable."""
+    launcher().warm(limits.memory, limits.cpu)
+
+
+def _check_size(source: str, limits: Limits) -> None:
+    size = len(source.encode("utf-8", "surrogatepass"))
+    if size > limits.source:
+        raise SketchContractError(f"the program has {size} bytes, at most {limits.source} are possible")
+
+
+def _request(program: Program, limits: Limits) -> dict[str, Any]:
+    return {
+        "source": program.source,
+        "answer": program.answer,
+        "prelude": program.prelude,
+        "initial": program.initial,
+        "seed": program.seed,
+        "actions": limits.actions,
+        "frame": limits.frame,
+        "printed": limits.printed,
+        "signatures": [
+            (s.skill, [(p.name, p.type, p.choices) for p in s.params]) for s in program.signatures
+        ],
+        "samplers": {s.name: {"params": s.params, "gives": s.gives} for s in program.samplers},
+    }

@@ -1,0 +1,149 @@
+"""What a program finds around it: names, imports, builtins, and a place to print to.
+
+None of this is the boundary (`lock` is); it makes mistakes readable.
+"""
+
+import builtins
+import contextlib
+import dataclasses
+import importlib
+import math
+import random
+import sys
+import types
+import typing
+import warnings
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+IMPORTABLE = (
+    "__future__", "abc", "bisect", "collections", "copy", "dataclasses", "enum", "functools", "heapq",
+    "itertools", "json", "math", "numpy", "operator", "random", "re", "statistics", "string", "typing",
+)  # fmt: skip
+"""Modules that a program may import, besides shapely where it is installed."""
+_SUBMODULES = (
+    "collections.abc", "encodings.ascii", "encodings.latin_1", "encodings.unicode_escape", "encodings.utf_8",
+    "inspect", "numpy.fft", "numpy.linalg", "numpy.ma", "numpy.polynomial", "numpy.random", "numpy.typing",
+)  # fmt: skip
+_OPTIONAL = ("shapely", "shapely.geometry", "shapely.ops", "shapely.affinity")
+_USELESS = ("open", "input", "breakpoint", "exit", "quit", "help")
+_TYPING = (
+    "Any", "Callable", "Dict", "Iterable", "Iterator", "List", "Literal", "NamedTuple", "Optional",
+    "Sequence", "Set", "Tuple", "Union",
+)  # fmt: skip
+
+
+def import_everything() -> tuple[str, ...]:
+    """Load all that a program may import, since nothing can be opened later; returns the names."""
+    for name in (*IMPORTABLE, *_SUBMODULES):
+        importlib.import_module(name)
+    available: tuple[str, ...] = IMPORTABLE
+    with contextlib.suppress(ImportError):
+        for name in _OPTIONAL:
+            importlib.import_module(name)
+        available += ("shapely",)
+    _settle_numpy()
+    return tuple(sorted(available))
+
+
+def _settle_numpy() -> None:
+    """Touch what numpy loads and allocates at first use; keep it quiet and repeatable."""
+    np.linalg.norm(np.array([1.0, 2.0]) @ np.eye(2))
+    repr(np.zeros(2))
+    warnings.simplefilter("ignore")
+    unseeded = np.random.default_rng
+
+    def default_rng(seed: Any = None) -> np.random.Generator:
+        # np.random itself is seeded for every sample
+        return unseeded(np.random.randint(2**32, dtype=np.uint64) if seed is None else seed)
+
+    np.random.default_rng = default_rng
+
+
+def new_module(name: str, names: dict[str, Any]) -> dict[str, Any]:
+    """The namespace of a fresh module; it is registered, because dataclasses look their module up."""
+    module = sys.modules[name] = types.ModuleType(name)
+    vars(module).update(names)
+    return vars(module)
+
+
+def program_names(prelude: dict[str, Any], importable: tuple[str, ...]) -> dict[str, Any]:
+    """What a program may use without import; the names of the prelude win."""
+    names: dict[str, Any] = {"np": np, "numpy": np, "math": math, "random": random}
+    names |= {name: getattr(typing, name) for name in _TYPING}
+    names |= {"dataclass": dataclasses.dataclass, "field": dataclasses.field}
+    names |= {name: value for name, value in prelude.items() if not name.startswith("__")}
+    return names | {"__builtins__": _builtins(importable)}
+
+
+def _builtins(importable: tuple[str, ...]) -> dict[str, Any]:
+    def limited_import(name: str, *args: Any) -> Any:
+        level = args[3] if len(args) > 3 else 0
+        if level or name.partition(".")[0] not in importable:
+            raise ImportError(f"{name!r} cannot be imported here; available: {', '.join(importable)}")
+        return builtins.__import__(name, *args)
+
+    kept = {name: value for name, value in vars(builtins).items() if name not in _USELESS}
+    return kept | {"__import__": limited_import}
+
+
+class Output:
+    """Where `print` goes: the first `limit` characters are kept until they are taken."""
+
+    encoding = "utf-8"
+
+    def __init__(self, limit: int) -> None:
+        self.limit = limit
+        self.length = 0
+        self._parts: list[str] = []
+
+    def write(self, text: str) -> int:
+        """Keep what still fits."""
+        if self.length < self.limit:
+            self._parts.append(text[: self.limit - self.length])
+        self.length += len(text)
+        return len(text)
+
+    def flush(self) -> None:
+        """Nothing to do: the output leaves with the next reply."""
+
+    def isatty(self) -> bool:
+        """Never a terminal."""
+        return False
+
+    def take(self) -> str:
+        """What was printed since the last time."""
+        text = "".join(self._parts)
+        self._parts.clear()
+        self.length = 0
+        return text
+
+
+@contextlib.contextmanager
+def noting_lines(action: Any, filename: str, spread: bool) -> Iterator[dict[int, int]]:
+    """Note, by id, the line on which the program made each action.
+
+    `spread` also takes the values one by one, as in `Action("draw_line", 1, 2, 3, 4)`.
+    """
+    lines: dict[int, int] = {}
+    make = action.__init__
+
+    def noting_init(self: Any, *args: Any, **kwargs: Any) -> None:
+        lines[id(self)] = _line_in(filename, sys._getframe(1))
+        if spread and len(args) > 2:
+            args = (args[0], list(args[1:]))
+        make(self, *args, **kwargs)
+
+    action.__init__ = noting_init
+    try:
+        yield lines
+    finally:
+        action.__init__ = make
+
+
+def _line_in(filename: str, frame: types.FrameType | None) -> int:
+    while frame is not None and frame.f_code.co_filename != filename:
+        frame = frame.f_back
+    return frame.f_lineno if frame is not None else 0

@@ -1,0 +1,161 @@
+"""The worker's main: lock down first, then load a program and answer rows with plans."""
+
+import faulthandler
+import gc
+import io
+import json
+import os
+import signal
+import struct
+import sys
+from typing import Any, TextIO, cast
+
+from .encoding import Unfit
+from .loading import LoadError, Program, describe
+from .lock import REPLIES, REQUESTS, TRACES, Unavailable, lock_down
+from .namespace import Output, import_everything
+from .wire import (
+    ERROR,
+    FIRST_SAMPLE,
+    LOAD,
+    LOADED,
+    LOG,
+    MOST_PROBLEMS,
+    PLAN,
+    PROBE,
+    PROBED,
+    READY,
+    REPLY,
+    REQUEST,
+    UNAVAILABLE,
+)
+
+
+def main() -> None:
+    """Serve requests until the other side closes the pipe. Arguments: memory in bytes, CPU seconds."""
+    memory, cpu_seconds = map(int, sys.argv[1:])
+    importable = import_everything()
+    _move_pipes()
+    try:
+        lock_down(memory, cpu_seconds)
+    except Unavailable as error:
+        _write(_frame(0, UNAVAILABLE, str(error)))
+        return
+    sys.stdin = io.StringIO("")
+    gc.freeze()
+    _write(_frame(0, READY, ""))
+    Server(importable).run()
+
+
+def _move_pipes() -> None:
+    """Requests, replies and traces to their descriptors; 0 to 2 become /dev/null, the rest closes."""
+    for standard, descriptor in enumerate((REQUESTS, REPLIES, TRACES)):
+        os.dup2(standard, descriptor)
+    nothing = os.open(os.devnull, os.O_RDWR)
+    for standard in range(3):
+        os.dup2(nothing, standard)
+    os.closerange(TRACES + 1, os.sysconf("SC_OPEN_MAX"))
+    # the other side sends SIGUSR1 to learn which line hangs, even inside C code
+    faulthandler.enable(TRACES, all_threads=False)
+    faulthandler.register(signal.SIGUSR1, TRACES, all_threads=False, chain=False)
+
+
+class Server:
+    """Answers the requests of one program."""
+
+    def __init__(self, importable: tuple[str, ...]) -> None:
+        self.importable = importable
+
+    def run(self) -> None:
+        """Answer until the pipe closes."""
+        while head := _read(REQUEST.size):
+            operation, length = REQUEST.unpack(head)
+            body = _read(length)
+            if operation == LOAD:
+                _write(self.load(json.loads(body)))
+            elif operation == PROBE:
+                _write(_frame(0, PROBED, self.program.probe(json.loads(body))))
+                self.output.take()
+            else:
+                self.answer(body)
+
+    def load(self, request: dict[str, Any]) -> bytes:
+        """Load the program; the reply says what it defines."""
+        self.output = Output(request["printed"])
+        sys.stdout = sys.stderr = cast(TextIO, self.output)
+        try:
+            self.program = Program(request, self.importable)
+        except LoadError as error:
+            cause = error.__cause__ or error
+            kind = "memory" if isinstance(cause, MemoryError) else error.stage
+            return _frame(0, ERROR, describe(cause, kind))
+        except BaseException as error:
+            return _frame(0, ERROR, describe(error, _kind(error)))
+        self.columns = struct.Struct(f"<{max(1, len(self.program.parameters))}d")
+        reply = _frame(0, LOADED, self._contents())
+        if len(reply) <= request["frame"]:
+            return reply
+        return _frame(0, ERROR, describe(Unfit("gen_domain holds too many values"), "contract"))
+
+    def _contents(self) -> dict[str, Any]:
+        program = self.program
+        return {
+            "parameters": [
+                {"name": p.name, "line": p.line, "sampler": p.sampler, "args": p.args}
+                for p in program.parameters
+            ],
+            "problems": program.problems[:MOST_PROBLEMS],
+            "log": self.output.take(),
+        }
+
+    def answer(self, body: bytes) -> None:
+        """One reply for each row, written at once."""
+        (sample,) = FIRST_SAMPLE.unpack_from(body)
+        parameters = len(self.program.parameters)
+        plan, encode, output = self.program.plan, self.program.encoder.encode, self.output
+        for row in self.columns.iter_unpack(body[FIRST_SAMPLE.size :]):
+            try:
+                actions = plan(sample, row[:parameters])
+                try:
+                    numbers, values = encode(actions)
+                except Exception as error:
+                    raise self._unfit(actions, error) from error
+                columns = values.tobytes()
+                size = len(numbers)
+                reply = REPLY.pack(sample, PLAN, size, size + len(columns)) + numbers + columns
+            except BaseException as error:
+                reply = _frame(sample, ERROR, describe(error, _kind(error)))
+            if output.length:
+                reply = _frame(sample, LOG, output.take()) + reply
+            _write(reply)
+            sample += 1
+
+    def _unfit(self, actions: Any, error: Exception) -> Unfit:
+        text = next((text for text, _ in self.program.encoder.problems(actions)), None)
+        return Unfit(text or f"the plan cannot be read: {error}")
+
+
+def _kind(error: BaseException) -> str:
+    if isinstance(error, Unfit):
+        return "contract"
+    return "memory" if isinstance(error, MemoryError) else "runtime"
+
+
+def _frame(sample: int, kind: int, content: Any) -> bytes:
+    body = json.dumps(content, ensure_ascii=False).encode("utf-8", "replace")
+    return REPLY.pack(sample, kind, 0, len(body)) + body
+
+
+def _read(size: int) -> bytes:
+    """Exactly `size` bytes, or none at the end of the pipe."""
+    data = os.read(REQUESTS, size)
+    while data and len(data) < size:
+        more = os.read(REQUESTS, size - len(data))
+        data = data + more if more else b""
+    return data
+
+
+def _write(data: bytes) -> None:
+    view = memoryview(data)
+    while view:
+        view = view[os.write(REPLIES, view) :]

@@ -1,0 +1,24 @@
+"""The frames between the two sides.
+
+A request is an operation, a length and a body; a reply is a sample number, a kind, a number of actions, a
+length and a body. LOAD and PROBE carry JSON or one row; RUN carries rows of float64. Every row is answered
+by exactly one PLAN (skill numbers, one byte each, then float64 values) or ERROR (JSON), written at once so
+that it survives whatever the next row does; a LOG (JSON) may precede it.
+"""
+
+import struct
+
+REQUEST = struct.Struct("<cI")
+LOAD, PROBE, RUN = b"L", b"P", b"R"
+FIRST_SAMPLE = struct.Struct("<I")
+
+REPLY = struct.Struct("<IHHI")
+READY, UNAVAILABLE, LOADED, PROBED, PLAN, ERROR, LOG = range(7)
+
+FILENAME = "<program>"
+"""What tracebacks call the program."""
+MOST_PARAMETERS = 256
+MOST_PROBLEMS = 20
+"""No more breaches of the contract than these are reported at once, to keep the reply small."""
+WIDTH = {"float": 1, "int": 1, "str": 1, "object": 1, "point": 3, "pose": 6, "grasp": 6}
+"""How many float64 values a parameter of each type takes."""

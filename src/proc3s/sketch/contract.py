@@ -1,0 +1,87 @@
+"""Our half of the contract check: builds the samplers that a program asked for, and words what is wrong."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from proc3s.samplers import Sampler, Space
+from proc3s.sketch.errors import SketchIssue
+from proc3s.sketch.protocol import Contents, Malformed, ReadParameter, Scalar
+from proc3s.sketch.text import Source, clean, message
+from proc3s.specs import SamplerSpec
+
+_LONGEST_TEXT = 200
+
+
+@dataclass(frozen=True)
+class OpenParameter:
+    """A parameter with its sampler; None where the program gives none that works."""
+
+    name: str
+    sampler: Sampler | None
+    choices: tuple[Scalar, ...] = ()
+
+    @property
+    def centre(self) -> float | None:
+        """The value in the middle of the cube, as it crosses."""
+        if self.sampler is None:
+            return None
+        return float(self.sampler.decode(np.full((1, self.sampler.dim), 0.5))[0, 0])
+
+    def value(self, column: float) -> Scalar:
+        """What gen_plan gets for a number that crosses."""
+        return self.choices[int(column)] if self.choices else column
+
+
+def open_parameters(
+    contents: Contents, specs: Iterable[SamplerSpec], source: Source
+) -> tuple[list[OpenParameter], list[SketchIssue]]:
+    """The parameters in order, and the samplers' own objections. Raises Malformed."""
+    known = {spec.name: spec for spec in specs}
+    if len({parameter.name for parameter in contents.parameters}) < len(contents.parameters):
+        raise Malformed("a parameter occurs twice")
+    parameters, issues = [], []
+    for read in contents.parameters:
+        try:
+            parameters.append(_open(read, known))
+        except ValueError as error:
+            parameters.append(OpenParameter(read.name, None))
+            issues.append(issue(f"gen_domain: {read.name}: {error}", read.line, source))
+    return parameters, issues
+
+
+def _open(read: ReadParameter, known: Mapping[str, SamplerSpec]) -> OpenParameter:
+    if read.sampler is None:
+        return OpenParameter(read.name, None)
+    spec = known.get(read.sampler)
+    if spec is None or set(read.args) != set(spec.params):
+        raise Malformed("a sampler is unknown")
+    args: dict[str, Any] = {}
+    for name, kind in spec.params.items():
+        value = read.args[name]
+        if isinstance(value, list) is not (kind == "list"):
+            raise Malformed("a sampler has wrong arguments")
+        args[name] = [_cleaned(v) for v in value] if isinstance(value, list) else value
+    choices = tuple(args[next(iter(spec.params))]) if spec.gives == "choice" else ()
+    return OpenParameter(read.name, spec.load()(**args), choices)
+
+
+def _cleaned(value: Scalar) -> Scalar:
+    return clean(value, _LONGEST_TEXT, keep="") if isinstance(value, str) else value
+
+
+def space_of(parameters: Iterable[OpenParameter]) -> Space:
+    """The space that a solver searches; all parameters must have a sampler."""
+    return Space({p.name: p.sampler for p in parameters if p.sampler is not None})
+
+
+def issue(text: str, line: int | None, source: Source) -> SketchIssue:
+    """A breach of the contract, quoting the program's line from our own copy."""
+    return SketchIssue(message(text), *source.quote(line))
+
+
+def in_order(issues: Iterable[SketchIssue]) -> list[SketchIssue]:
+    """Issues by line, those about the whole program first, each once."""
+    return sorted(dict.fromkeys(issues), key=lambda i: i.line or 0)

@@ -1,0 +1,39 @@
+"""Text that a program or a model wrote, made fit for terminals, logs, pages and prompts."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+MESSAGE_LENGTH = 600
+LINE_LENGTH = 200
+
+
+def clean(text: str, length: int, keep: str = "\n\t") -> str:
+    """`text` cut to `length` characters, without control, bidirectional, zero-width ones."""
+    if len(text) > length:
+        text = text[: length - 1] + "…"
+    if text.isprintable():
+        return text
+    return "".join(c if c.isprintable() or c in keep else "?" for c in text)
+
+
+def message(text: str) -> str:
+    """An error message of the program on one line."""
+    return clean(" ".join(text[: 2 * MESSAGE_LENGTH].split()), MESSAGE_LENGTH)
+
+
+@dataclass(frozen=True)
+class Source:
+    """Our own copy of a program's text, to quote lines from: the worker only ever says which."""
+
+    text: str
+
+    @cached_property
+    def lines(self) -> list[str]:
+        """The lines as Python counts them."""
+        return self.text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
+
+    def quote(self, line: int | None) -> tuple[int | None, str | None]:
+        """The line number and its text, or (None, None) if the program has no such line."""
+        if line is None or not 1 <= line <= len(self.lines):
+            return None, None
+        return line, clean(self.lines[line - 1].strip(), LINE_LENGTH)

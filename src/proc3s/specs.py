@@ -1,0 +1,298 @@
+"""The declarative half of every plugin: pydantic specs, frozen, closed to unknown keys.
+
+YAML (or a plugin's Python) says *what*, in words and numbers; `target` says which Python says *how*.
+"""
+
+import importlib
+import math
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Annotated, Any, ClassVar, Literal
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
+
+from proc3s.errors import Issue, SpecError, did_you_mean
+
+Identifier = Annotated[str, Field(pattern=r"^[A-Za-z_][A-Za-z0-9_]*$", max_length=80)]
+ImportString = Annotated[str, Field(pattern=r"^[\w.]+:\w+$", examples=["my_package.world:MyWorld"])]
+FieldType = Annotated[str, Field(pattern=r"^(\w+|list\[\w+\]|dict\[\w+\])$")]
+
+
+class Spec(BaseModel):
+    """Base of all specs. `kind` is the plural under which `proc3s list` shows them."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
+    kind: ClassVar[str] = ""
+
+
+class Target(Spec):
+    """A Python object to call: `target: "package.module:name"`, with keyword arguments."""
+
+    target: ImportString
+    args: dict[str, Any] = Field(default_factory=dict)
+
+    def load(self) -> Any:
+        """The object that `target` names. Raises SpecError if it cannot be imported."""
+        module_name, _, name = self.target.partition(":")
+        try:
+            module = importlib.import_module(module_name)
+        except ImportError as error:
+            raise SpecError([Issue(self.target, "target", f"cannot be imported: {error}")]) from error
+        if not hasattr(module, name):
+            public = [n for n in vars(module) if not n.startswith("_")]
+            message = f"{module_name} has no {name!r}{did_you_mean(name, public)}"
+            raise SpecError([Issue(self.target, "target", message)])
+        return getattr(module, name)
+
+
+def _name_from_key(items: Any) -> Any:
+    """Specs in a mapping are named by their key."""
+    if not isinstance(items, Mapping):
+        return items
+    return {k: {"name": k, **v} if isinstance(v, Mapping) else v for k, v in items.items()}
+
+
+Named = BeforeValidator(_name_from_key)
+
+
+class FieldSpec(Spec):
+    """One field of an object type."""
+
+    type: FieldType
+    """`float`, `int`, `str`, `bool`, a type of this domain, or `list[…]` / `dict[…]` of one."""
+    unit: str | None = None
+    """Unit of the number, as the LLM reads it."""
+    says: str = ""
+    """A few words for the reader of the prompt."""
+    default: Any = None
+    """Value when the scene gives none; without it the field is required."""
+
+    @property
+    def required(self) -> bool:
+        """Whether every scene must give this field."""
+        return "default" not in self.model_fields_set
+
+
+class TypeSpec(Spec):
+    """An object type: becomes a frozen dataclass here and an ordinary one in the program's box."""
+
+    summary: str
+    """One sentence for the reader of the prompt."""
+    fields: dict[Identifier, FieldSpec]
+    """Fields in order."""
+
+
+class ConstantSpec(Spec):
+    """A named constant that programs may use."""
+
+    value: int | float | str | list[Any]
+    """The value, a number, a text, or a (nested) list of them."""
+    says: str = ""
+    """A few words for the reader of the prompt."""
+
+
+class ParamSpec(Spec):
+    """A parameter of a skill."""
+
+    type: Literal["float", "int", "str", "object", "point", "pose", "grasp"] = "float"
+    """`object` must name an object of the initial state; `point` is 3 numbers, `pose` and `grasp` are 6."""
+    unit: str | None = None
+    """Unit of the number, as the LLM reads it."""
+    says: str = ""
+    """A few words for the reader of the prompt."""
+    min: float = -math.inf
+    """Smallest legal value of a number."""
+    max: float = math.inf
+    """Largest legal value of a number."""
+    noise: float = Field(0.0, ge=0)
+    """Standard deviation at full scale for the Gaussian methods, in the parameter's unit; 0: left alone."""
+    choices: tuple[str, ...] = ()
+    """The legal values of a `str`."""
+
+    @model_validator(mode="after")
+    def _complete(self) -> "ParamSpec":
+        if self.type == "str" and not self.choices:
+            raise ValueError("a parameter of type str needs choices")
+        if self.min > self.max:
+            raise ValueError(f"min {self.min} is above max {self.max}")
+        return self
+
+
+class SkillSpec(Target):
+    """A skill: `target(world, *args) -> telemetry` moves the world by one ground action."""
+
+    kind: ClassVar[str] = "skills"
+    name: Identifier
+    summary: str
+    """One sentence for the LLM: what the skill does with its parameters."""
+    params: dict[Identifier, ParamSpec]
+    """Parameters in order."""
+    domains: tuple[str, ...] = ()
+    """Domains that a plugin's skill attaches to by itself; `*` is every domain."""
+
+
+class SamplerSpec(Target):
+    """A sampler: `target(**params)` maps the unit cube to values of one parameter of a program."""
+
+    kind: ClassVar[str] = "samplers"
+    name: Identifier
+    summary: str
+    """One sentence for the LLM."""
+    params: dict[Identifier, Literal["float", "list"]]
+    """Constructor parameters in order, as programs give them."""
+    gives: Literal["float", "choice"] = "float"
+    """`float`: the number itself; `choice`: an index into the list that is the first parameter."""
+    domains: tuple[str, ...] = ()
+    """Domains that the sampler attaches to by itself; `*` is every domain."""
+
+
+class ConstraintSpec(Target):
+    """A constraint: `target(transition) -> margin`, negative when violated, None where it does not apply."""
+
+    kind: ClassVar[str] = "constraints"
+    name: Identifier
+    says: str
+    """The sentence of a violation; `{…}` takes details that the margin carries."""
+    tolerance: float = Field(0.0, ge=0)
+    """A margin down to minus this still counts as fulfilled, in the constraint's unit."""
+    domains: tuple[str, ...] = ()
+    """Domains that a plugin's constraint attaches to by itself; `*` is every domain."""
+
+
+class TaskSpec(Spec):
+    """A task: an instruction, a scene, and judges that must all be satisfied."""
+
+    kind: ClassVar[str] = "tasks"
+    name: Identifier
+    instruction: str | None = None
+    """What to do, in plain language; without it the task needs `--goal`."""
+    initial: Target
+    """`target(rng, **args) -> data` makes the scene; plain data of the state type."""
+    judge: tuple[Target, ...] = ()
+    """Each `target(state, plan, **args) -> Score`; none: nobody checks the outcome."""
+    budget: dict[str, int] = Field(default_factory=dict)
+    """Samples per problem by preset, where they differ from the domain's."""
+
+
+class ExampleSpec(TaskSpec):
+    """A worked example for the prompt: a task of its own whose answers stand in `examples/NAME.KIND.md`."""
+
+    instruction: str
+    seed: int = 0
+    """Seed of its scene."""
+
+
+class DomainSpec(Spec):
+    """A whole domain, as `domain.yaml` describes it."""
+
+    kind: ClassVar[str] = "domains"
+    spec_version: Literal[1]
+    """Version of this format."""
+    name: Identifier
+    summary: str
+    """One sentence: what this world is."""
+    world: Target
+    """The transition model that accepts or refuses plans."""
+    execution: Target | None = None
+    """The world in which accepted plans are carried out; default: the same."""
+    state: Identifier
+    """The type that is the state."""
+    objects: Identifier | None = None
+    """The state's field that holds the named objects (a list of things with a `name`, or a dict)."""
+    types: dict[Identifier, TypeSpec]
+    """Object types."""
+    constants: dict[Identifier, ConstantSpec] = Field(default_factory=dict)
+    """Constants that programs may use."""
+    preface: str = ""
+    """What the LLM must know before it reads the skills: axes, units, sizes."""
+    skills: Annotated[dict[Identifier, SkillSpec], Named]
+    """Skills of this domain."""
+    samplers: tuple[Identifier, ...]
+    """Names of the samplers that programs of this domain may use."""
+    constraints: Annotated[dict[Identifier, ConstraintSpec], Named]
+    """Constraints in the order in which they are checked."""
+    use: tuple[Identifier, ...] = ()
+    """Names of further skills, samplers and constraints that plugins bring."""
+    tasks: Annotated[dict[Identifier, TaskSpec], Named]
+    """Tasks of this domain."""
+    budget: dict[str, int]
+    """Samples per problem by preset."""
+    examples: Annotated[dict[Identifier, ExampleSpec], Named] = Field(default_factory=dict)
+    """Worked examples, none of them a task."""
+    folder: Path | None = Field(default=None, exclude=True)
+    """Where `examples/`, `answers/` and `templates/` lie; the folder of the file."""
+
+
+class MethodSpec(Spec):
+    """A method: which prompt, what kind of answer, and how it is searched."""
+
+    kind: ClassVar[str] = "methods"
+    name: str
+    summary: str
+    template: str
+    """Template of the prompt, `methods/NAME.j2`; bundled answers are kept under the same NAME."""
+    answer: Literal["sketch", "program", "plan"]
+    """`sketch`: gen_plan with parameters, and gen_domain; `program`: gen_plan(state); `plan`: the actions."""
+    samples: Literal["none", "one", "budget"] = "budget"
+    """How many samples a problem gets; `none` executes the plan unchecked."""
+    perturb: Literal["none", "gaussian"] = "none"
+    """`gaussian`: every number of the plan becomes a dimension of noise."""
+    fallback: Literal["none", "last_plan"] = "none"
+    """What is executed when nothing was accepted."""
+    rounds: int = Field(0, ge=0)
+    """Feedback rounds after the first answer."""
+    solver: str = "rejection"
+    """Solver, unless the command line names another."""
+
+
+class PresetSpec(Spec):
+    """What method and command line leave open: budgets and the style of the feedback."""
+
+    kind: ClassVar[str] = "presets"
+    name: str
+    summary: str
+    budget: str
+    """Which of the budgets of a domain applies."""
+    feedback: str = "paper"
+    """Style of the feedback template."""
+    top: int = Field(2, ge=1)
+    """How many of the commonest failures the feedback names."""
+
+
+class SolverSpec(Target):
+    """A solver: `target(space, budget, rng, options)` with `ask` and `tell`."""
+
+    kind: ClassVar[str] = "solvers"
+    name: str
+    summary: str
+    options: ImportString | None = None
+    """pydantic model of its options (`-S key=value`)."""
+
+
+class LLMSpec(Target):
+    """A language-model backend: `target(model, options)` with `complete(request)`."""
+
+    kind: ClassVar[str] = "llms"
+    name: str
+    summary: str
+    usage: str
+    """How `--llm` names it."""
+    options: ImportString | None = None
+    """pydantic model of its options (`-L key=value`)."""
+
+
+class ExecutorSpec(Target):
+    """An executor: `target(jobs)` maps `rollout` over plans, results in order."""
+
+    kind: ClassVar[str] = "executors"
+    name: str
+    summary: str
+
+
+class TemplatesSpec(Spec):
+    """A folder of Jinja templates; later registrations are searched first."""
+
+    kind: ClassVar[str] = "templates"
+    name: str
+    summary: str
+    folder: Path

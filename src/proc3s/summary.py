@@ -1,0 +1,96 @@
+"""The summary of a run: one flat document for people and programs."""
+
+import dataclasses
+from pathlib import Path
+from typing import Any, Literal
+
+from pydantic import BaseModel
+
+from proc3s.feedback import Diagnosis, Failure
+from proc3s.options import RunOptions
+from proc3s.planner import Outcome, Setup
+
+
+class Summary(BaseModel):
+    """What `run` and `solve` print with `--json` and keep as `summary.json`."""
+
+    task: str | None = None
+    method: str | None = None
+    llm: str | None = None
+    llm_source: Literal["live", "recorded", "authored", "manual", "none"] = "none"
+    solver: str | None = None
+    preset: str | None = None
+    seed: int | None = None
+    solved: bool = False
+    """The world accepted the plan."""
+    executed: Literal["solution", "fallback", "none"] = "none"
+    goal_reached: bool | None = None
+    """The judge says that the instruction is fulfilled; null without a judge."""
+    goal_reason: str | None = None
+    rounds: int = 0
+    """Feedback rounds after the first answer."""
+    samples: int = 0
+    evaluations: int = 0
+    rejected_by: dict[str, int] = {}
+    seconds: dict[str, float] = {}
+    cpu_seconds: dict[str, float] = {}
+    plan: list[dict[str, Any]] | None = None
+    violations: list[dict[str, Any]] = []
+    program_errors: list[dict[str, Any]] = []
+    run_dir: str | None = None
+    error: str | None = None
+
+
+def summarize(options: RunOptions, setup: Setup, outcome: Outcome, run_dir: Path | None) -> Summary:
+    """The summary of an outcome. With no plan executed, the violations are those of the last round."""
+    execution = outcome.execution
+    last = outcome.attempts[-1].diagnosis if outcome.attempts else Diagnosis(samples=0)
+    wall, cpu = outcome.clock.totals()
+    sources = {proposal.source for proposal in outcome.proposals}
+    return Summary(
+        task=options.task,
+        method=setup.method.name,
+        llm=None if sources == {"none"} else options.llm,
+        llm_source=outcome.proposals[-1].source if outcome.proposals else "none",
+        solver=options.solver or setup.method.solver,
+        preset=setup.preset.name,
+        seed=options.seed,
+        solved=execution is not None and execution.executed == "solution",
+        executed=execution.executed if execution else "none",
+        goal_reached=execution.score.reached if execution and execution.score else None,
+        goal_reason=execution.reason if execution else None,
+        rounds=max(len(outcome.attempts) - 1, 0),
+        samples=sum(attempt.samples for attempt in outcome.attempts),
+        evaluations=sum(attempt.evaluations for attempt in outcome.attempts),
+        seconds=_seconds(outcome.clock.wall, wall),
+        cpu_seconds=_seconds(outcome.clock.cpu, cpu),
+        plan=[action.to_json() for action in execution.plan] if execution else None,
+        violations=_violations(outcome, last),
+        program_errors=[_program_error(f) for f in (*last.program_errors, *last.failures) if f.step is None],
+        run_dir=str(run_dir) if run_dir else None,
+        error=str(outcome.error) if outcome.error else None,
+    )
+
+
+def _seconds(stages: dict[str, float], total: float) -> dict[str, float]:
+    return {name: round(value, 4) for name, value in {**stages, "total": total}.items()}
+
+
+def _violations(outcome: Outcome, last: Diagnosis) -> list[dict[str, Any]]:
+    if outcome.execution:
+        return [{**dataclasses.asdict(v), "share": 100} for v in outcome.execution.violations]
+    return [
+        {"constraint": f.kind, "step": f.step, "skill": f.skill, "text": f.text, "share": f.share}
+        for f in last.failures
+        if f.step is not None
+    ]
+
+
+def _program_error(failure: Failure) -> dict[str, Any]:
+    return {
+        "kind": failure.kind,
+        "message": failure.text,
+        "line": failure.line,
+        "source": failure.source,
+        "share": failure.share,
+    }

@@ -1,0 +1,82 @@
+"""Worlds: the transition models that accept or refuse plans."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
+
+from proc3s.state import Action, Plan, State
+
+if TYPE_CHECKING:
+    from proc3s.domain import Domain
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True)
+class Transition(Generic[T]):
+    """One step of a world: the state before, the action, the state after, and what the world measured.
+
+    `telemetry` is the world's own frozen class; constraints read what they need from it.
+    """
+
+    before: State
+    action: Action
+    after: State
+    telemetry: T
+
+
+@dataclass(frozen=True)
+class Score:
+    """A judge's verdict on the final state, with the reason in words."""
+
+    reached: bool
+    reason: str
+
+
+class World(Generic[T]):
+    """A world of one domain whose skills change `state`; a simulator overrides what it keeps elsewhere.
+
+    `step` is generic around the target of the skill. A snapshot is whatever `save` returns; `load` restores
+    it exactly, so that a step from a loaded snapshot equals the same step in a replayed plan bit for bit.
+    """
+
+    def __init__(self, domain: "Domain") -> None:
+        self.domain = domain
+        self.state: Any = None
+        self._snapshot: Any = None
+
+    def reset(self, state: State) -> None:
+        """Put the world into a state."""
+        self.place(state)
+        self._snapshot = self.save()
+
+    def step(self, action: Action) -> Transition[T]:
+        """Carry out one ground action from the snapshot of the step before."""
+        self.load(self._snapshot)
+        before = self.observe()
+        telemetry = self.domain.skill(action.skill)(self, *action.args)
+        self._snapshot = self.save()
+        return Transition(before, action, self.observe(), telemetry)
+
+    def place(self, state: State) -> None:
+        """Build everything that the state describes."""
+        self.state = state
+
+    def observe(self) -> State:
+        """The state the world is in."""
+        state: State = self.state
+        return state
+
+    def save(self) -> Any:
+        """A snapshot of everything that later steps depend on."""
+        return self.state
+
+    def load(self, snapshot: Any) -> None:
+        """Restore a snapshot exactly."""
+        self.state = snapshot
+
+    def render(self, plan: Plan, path: Path) -> None:
+        """Draw the world after a plan as a PNG file; a world without a picture writes none."""
+
+    def close(self) -> None:
+        """Give up what the world holds."""

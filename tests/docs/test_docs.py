@@ -1,0 +1,79 @@
+"""Every example of the docs runs, and prints what the docs say it prints."""
+
+import os
+import re
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+PAGES = sorted((ROOT / "docs").rglob("*.md"))
+BLOCK = re.compile(
+    r"(?:<!-- (?P<kind>file|exit): (?P<value>\S+) -->\n)?^(?P<fence>`{3,})(?P<language>\w*)\n(?P<body>.*?)^(?P=fence)$",
+    re.MULTILINE | re.DOTALL,
+)
+
+
+def run(command: str, folder: Path) -> tuple[int, str]:
+    environment = {**os.environ, "PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}", "COLUMNS": "200"}
+    done = subprocess.run(
+        ["bash", "-c", f"{command} 2>&1"], cwd=folder, env=environment, capture_output=True, text=True, timeout=120
+    )
+    return done.returncode, done.stdout
+
+
+def as_pattern(lines: list[str]) -> str:
+    """`...` stands for anything, on a line of its own also for any number of lines."""
+    parts = [r"(?:.*\n)*?" if line == "..." else re.escape(line).replace(r"\.\.\.", ".*") + r"\n" for line in lines]
+    return "".join(parts)
+
+
+def check_console(body: str, expected_exit: int, folder: Path) -> None:
+    commands: list[tuple[str, list[str]]] = []
+    for line in body.splitlines():
+        if line.startswith("$ "):
+            commands.append((line[2:], []))
+        else:
+            commands[-1][1].append(line)
+    for number, (command, expected) in enumerate(commands, start=1):
+        code, output = run(command, folder)
+        assert code == (expected_exit if number == len(commands) else 0), f"{command}\n{output}"
+        assert re.fullmatch(as_pattern(expected), output), f"{command}\nprinted\n{output}"
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_every_example_of_a_page_runs(page: Path, tmp_path: Path) -> None:
+    ran = 0
+    for block in BLOCK.finditer(page.read_text(encoding="utf-8")):
+        if block["kind"] == "file":
+            path = tmp_path / block["value"]
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(block["body"], encoding="utf-8")
+        elif block["language"] == "console":
+            check_console(block["body"], int(block["value"] or 0), tmp_path)
+            ran += 1
+    assert ran, "the page has no example that runs"
+
+
+def links(page: Path) -> list[str]:
+    return re.findall(r"\]\(([^)#:]+)\)|src=\"([^\":]+)\"", page.read_text(encoding="utf-8"))
+
+
+@pytest.mark.parametrize("page", [ROOT / "README.md", *PAGES], ids=lambda page: page.stem)
+def test_links_lead_somewhere(page: Path) -> None:
+    for pair in links(page):
+        target = next(filter(None, pair))
+        assert (page.parent / target).exists(), target
+
+
+def test_commands_in_the_readme_name_things_that_exist() -> None:
+    for line in re.findall(r"^proc3s .*$", (ROOT / "README.md").read_text(encoding="utf-8"), re.MULTILINE):
+        command = shlex.split(line, comments=True)
+        done = subprocess.run([*command[:2], "--help"], capture_output=True, text=True, timeout=60)
+        assert done.returncode == 0
+        for option in command[2:]:
+            if option.startswith("-"):
+                assert option in done.stdout
