@@ -1,9 +1,9 @@
 """The planar graph of a drawing: near ends merged, strokes split where they meet, closed outlines found."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import chain, pairwise
+from itertools import pairwise
 from typing import TypeAlias
 
 import numpy as np
@@ -65,8 +65,11 @@ class StrokeGraph:
 
     def without(self, edges: Iterable[Edge]) -> "StrokeGraph":
         """The same nodes with fewer edges."""
-        gone = {_edge(*edge) for edge in edges}
-        return StrokeGraph(self.nodes, self.edges - gone, self.tolerance)
+        return StrokeGraph(self.nodes, self.edges - {_edge(*edge) for edge in edges}, self.tolerance)
+
+    def length(self, path: Sequence[int]) -> float:
+        """Length of a path, given as the indices of its nodes."""
+        return float(np.linalg.norm(np.diff(self.nodes[[*path]], axis=0), axis=1).sum())
 
 
 def stroke_graph(lines: FloatArray) -> StrokeGraph:
@@ -75,101 +78,75 @@ def stroke_graph(lines: FloatArray) -> StrokeGraph:
     It does not depend on the order, direction or repetition of the lines; dots are dropped.
     """
     strokes = _canonical(lines)
-    tolerance = NEAR * _diameter(strokes.reshape(-1, 2))
+    ends = strokes.reshape(-1, 2)
+    tolerance = NEAR * _diameter(ends)
     same = 1e-3 * tolerance
-    points = np.concatenate([strokes.reshape(-1, 2), crossings(strokes)])
+    feet = nearest_on_segment(ends[:, None], strokes[:, 0], strokes[:, 1])
+    beside = np.linalg.norm(feet - ends[:, None], axis=2) <= tolerance
+    points = np.unique(np.concatenate([ends, feet[beside], _crossings(strokes)]), axis=0)
     labels, nodes = _distinct(points, same)
     edges: set[Edge] = set()
     for a, b in strokes:
         on = np.unique(labels[segment_distance(points, a, b) <= same])
         path = on[np.argsort((nodes[on] - a) @ (b - a), kind="stable")].tolist()
         edges.update(_edge(*pair) for pair in pairwise(path))
-    graph = StrokeGraph(nodes, frozenset(edges), tolerance)
-    return _without_stubs(_without_doubles(_gaps_closed(graph)))
+    graph = _gaps_closed(StrokeGraph(nodes, frozenset(edges), tolerance))
+    return _forks_merged(_without_stubs(_without_doubles(graph)))
 
 
 def _canonical(lines: FloatArray) -> FloatArray:
     """Strokes of shape (n, 2, 2), each from its smaller to its larger end, sorted, unique, no dots."""
-    strokes = np.array(lines, dtype=np.float64).reshape(-1, 2, 2)
-    swap = [tuple(a) > tuple(b) for a, b in strokes.tolist()]
-    strokes[swap] = strokes[swap][:, ::-1]
-    unique: FloatArray = np.unique(strokes, axis=0)
-    length = np.linalg.norm(unique[:, 1] - unique[:, 0], axis=1)
-    return unique[length > DOT * _diameter(unique[length > 0].reshape(-1, 2))]
+    sorted_ends = [sorted([(a, b), (c, d)]) for a, b, c, d in np.asarray(lines).tolist()]
+    strokes = np.unique(np.array(sorted_ends, dtype=np.float64).reshape(-1, 2, 2), axis=0)
+    length = np.linalg.norm(strokes[:, 1] - strokes[:, 0], axis=1)
+    kept: FloatArray = strokes[length > DOT * _diameter(strokes[length > 0].reshape(-1, 2))]
+    return kept
 
 
 def _diameter(points: FloatArray) -> float:
     return float(np.linalg.norm(points[:, None] - points[None], axis=2).max(initial=0.0))
 
 
-def crossings(strokes: FloatArray) -> FloatArray:
-    """Points, shape (k, 2), where two of the strokes, shape (n, 2, 2), that are not parallel meet; sorted."""
+def _crossings(strokes: FloatArray) -> FloatArray:
+    """Points, shape (k, 2), where two of the strokes, shape (n, 2, 2), that are not parallel meet."""
     i, j = np.triu_indices(len(strokes), 1)
     p, q = strokes[i, 0], strokes[j, 0]
     r, s = strokes[i, 1] - p, strokes[j, 1] - q
     det = cross(r, s)
-    slanted = np.abs(det) > 1e-9 * np.linalg.norm(r, axis=1) * np.linalg.norm(s, axis=1)
-    p, q, r, s, det = p[slanted], q[slanted], r[slanted], s[slanted], det[slanted]
+    det[np.abs(det) < 1e-9 * np.linalg.norm(r, axis=1) * np.linalg.norm(s, axis=1)] = np.nan
     t, u = cross(q - p, s) / det, cross(q - p, r) / det
     meet = (t >= 0) & (t <= 1) & (u >= 0) & (u <= 1)
-    return np.unique(p[meet] + t[meet, None] * r[meet], axis=0)
+    found: FloatArray = p[meet] + t[meet, None] * r[meet]
+    return found
 
 
 def _distinct(points: FloatArray, same: float) -> tuple[NDArray[np.int64], FloatArray]:
     """For each point the index of the node it is, and the nodes: points closer than `same` are one."""
-    nodes = np.empty_like(points)
-    labels = np.empty(len(points), dtype=np.int64)
-    count = 0
+    labels = np.full(len(points), -1)
+    nodes: list[FloatArray] = []
     for k, point in enumerate(points):
-        close = np.flatnonzero(np.hypot(*(nodes[:count] - point).T) <= same)
-        if len(close) == 0:
-            nodes[count] = point
-            count += 1
-        labels[k] = close[0] if len(close) else count - 1
-    return labels, nodes[:count]
+        if labels[k] < 0:
+            labels[(labels < 0) & (np.hypot(*(points - point).T) <= same)] = len(nodes)
+            nodes.append(point)
+    return labels, np.array(nodes).reshape(-1, 2)
 
 
 def _gaps_closed(graph: StrokeGraph) -> StrokeGraph:
-    """Loose ends within the tolerance are joined, nearest first; then those just short of a node or edge."""
+    """Loose ends are joined to nodes within the tolerance to which no stroke leads near by, nearest first."""
     ends = graph.of_degree(1, 1)
-    where = graph.nodes[ends]
-    gap = np.linalg.norm(where[:, None] - where[None], axis=2)
-    close = np.argwhere(np.triu(gap <= graph.tolerance, 1))
-    for a, b in close[np.argsort(gap[*close.T], kind="stable")].tolist():
-        i, j = ends[a], ends[b]
-        if len(graph.neighbours[i]) == len(graph.neighbours[j]) == 1 and (i, j) not in graph.edges:
-            graph = StrokeGraph(graph.nodes, graph.edges | {(i, j)}, graph.tolerance)
-    for end in ends:
-        if len(graph.neighbours[end]) == 1:
-            graph = _loose_end_joined(graph, end)
+    gap = np.linalg.norm(graph.nodes[ends][:, None] - graph.nodes[None], axis=2)
+    close = np.argwhere(gap <= graph.tolerance)
+    for k, node in close[np.argsort(gap[*close.T], kind="stable")].tolist():
+        end, around = ends[k], set(np.flatnonzero(gap[k] <= 2 * graph.tolerance).tolist())
+        if len(graph.neighbours[end]) == 1 and node not in _reachable(graph, end, around):
+            graph = StrokeGraph(graph.nodes, graph.edges | {_edge(end, node)}, graph.tolerance)
     return graph
-
-
-def _loose_end_joined(graph: StrokeGraph, end: int) -> StrokeGraph:
-    nodes, near, own = graph.nodes, graph.tolerance, graph.neighbours[end][0]
-    others = [edge for edge in sorted(graph.edges) if end not in edge]
-    if not others:
-        return graph
-    free = sorted({*chain.from_iterable(others)} - {own})
-    away = np.linalg.norm(nodes[free] - nodes[end], axis=1)
-    if away.min() <= near:
-        return StrokeGraph(nodes, graph.edges | {_edge(end, free[int(away.argmin())])}, near)
-    feet = nearest_on_segment(nodes[end], *nodes[np.array(others).T])
-    away = np.linalg.norm(feet - nodes[end], axis=1)
-    # At its own corner an end is always near the other stroke: that is no gap.
-    corner = np.array([own in edge for edge in others]) & (np.linalg.norm(feet - nodes[own], axis=1) <= near)
-    away[corner] = np.inf
-    if away.min() > near:
-        return graph
-    (i, j), foot, new = others[int(away.argmin())], feet[[int(away.argmin())]], len(nodes)
-    edges = graph.edges - {(i, j)} | {(i, new), (j, new), (end, new)}
-    return StrokeGraph(np.concatenate([nodes, foot]), edges, near)
 
 
 def _without_doubles(graph: StrokeGraph) -> StrokeGraph:
     """Of strokes drawn on top of each other, one remains: an edge goes if other edges lead along it."""
     nodes = graph.nodes
-    for i, j in sorted(graph.edges, key=lambda edge: -np.linalg.norm(nodes[edge[0]] - nodes[edge[1]])):
+    for i, j in sorted(graph.edges, key=lambda edge: (-graph.length(edge), edge)):
         near = set(np.flatnonzero(segment_distance(nodes, nodes[i], nodes[j]) <= graph.tolerance).tolist())
         beside = [node for node in graph.neighbours[i] if node in near and node != j]
         if any(j in _reachable(graph, node, near - {i}) for node in beside):
@@ -188,15 +165,23 @@ def _reachable(graph: StrokeGraph, start: int, allowed: set[int]) -> set[int]:
 
 def _without_stubs(graph: StrokeGraph) -> StrokeGraph:
     """Strokes that overshoot each other leave stubs; at an acute corner twice as long as the overshoot."""
-    loose, forks = set(graph.of_degree(1, 1)), set(graph.of_degree(3))
-    stubs = [
-        path
-        for path in graph.chains
-        if loose & {path[0], path[-1]}
-        and forks & {path[0], path[-1]}
-        and path_length(graph.nodes[path]) <= 2 * graph.tolerance
-    ]
-    return graph.without(edge for path in stubs for edge in pairwise(path))
+    while True:
+        loose, forks = set(graph.of_degree(1, 1)), set(graph.of_degree(3))
+        tails = [path for path in graph.chains if loose & {*path} and forks & {*path}]
+        stubs = [path for path in tails if graph.length(path) <= 2 * graph.tolerance]
+        if not stubs:
+            return graph
+        graph = graph.without(edge for path in stubs for edge in pairwise(path))
+
+
+def _forks_merged(graph: StrokeGraph) -> StrokeGraph:
+    """Three shaky strokes that should meet in one point meet in two or three near by: these become one."""
+    forks = set(graph.of_degree(3))
+    short = {edge for edge in graph.edges if {*edge} <= forks and graph.length(edge) <= graph.tolerance}
+    near = StrokeGraph(graph.nodes, frozenset(short), graph.tolerance)
+    one = {node: min(_reachable(near, node, forks)) for node in near.neighbours}
+    edges = {_edge(one.get(i, i), one.get(j, j)) for i, j in graph.edges - near.edges}
+    return StrokeGraph(graph.nodes, frozenset((i, j) for i, j in edges if i != j), graph.tolerance)
 
 
 def outlines(graph: StrokeGraph) -> list[FloatArray]:
@@ -205,48 +190,29 @@ def outlines(graph: StrokeGraph) -> list[FloatArray]:
     Every other closed curve lies inside one of them. Curves that touch in one point only are two curves;
     curves narrower than half the tolerance are none.
     """
-    core = graph
+    nodes, core = graph.nodes, graph
     while leaves := core.of_degree(1, 1):
         core = core.without((leaf, core.neighbours[leaf][0]) for leaf in leaves)
-    parts = []
-    for members in _components(core):
-        loops = (graph.nodes[loop] for loop in _simple_loops(_outer_walk(core, members)))
-        parts.append([loop for loop in loops if _width(loop) > graph.tolerance / 2])
-    return [
-        loop
-        for part in parts
-        for loop in part
-        if not any(inside(loop[0], other) for rest in parts if rest is not part for other in rest)
-    ]
-
-
-def _components(graph: StrokeGraph) -> list[list[int]]:
-    found: list[list[int]] = []
-    unseen = set(graph.neighbours)
+    unseen, loops = set(core.neighbours), list[FloatArray]()
     while unseen:
-        found.append(sorted(_reachable(graph, min(unseen), unseen)))
-        unseen -= {*found[-1]}
-    return found
+        lowest = min(unseen, key=lambda node: (nodes[node][1], nodes[node][0]))
+        loops += [nodes[loop] for loop in _simple_loops(_outer_walk(core, lowest))]
+        unseen -= _reachable(core, lowest, unseen)
+    wide = [loop for loop in loops if _width(loop) > graph.tolerance / 2]
+    return [a for a in wide if not any(inside((a[0] + a[1]) / 2, b) for b in wide if b is not a)]
 
 
-def _outer_walk(graph: StrokeGraph, members: list[int]) -> list[int]:
+def _outer_walk(graph: StrokeGraph, start: int) -> list[int]:
     """Once around a component with the outside on the right, from its lowest node back to it."""
-    nodes = graph.nodes
-
-    def rightmost(at: int, back: FloatArray) -> int:
-        def turn(other: int) -> float:
-            ahead = nodes[other] - nodes[at]
-            angle = float(np.arctan2(cross(back, ahead), back @ ahead)) % (2 * np.pi)
-            return angle if angle > 1e-12 else 2 * np.pi
-
-        return min(graph.neighbours[at], key=turn)
-
-    start = min(members, key=lambda node: (nodes[node][1], nodes[node][0]))
-    walk = [start, rightmost(start, np.array([0.0, -1.0]))]
+    walk, back = [start], np.array([0.0, -1.0])
     while True:
-        step = rightmost(walk[-1], nodes[walk[-2]] - nodes[walk[-1]])
-        if walk[-1] == start and step == walk[1]:
+        rays = graph.nodes[graph.neighbours[walk[-1]]] - graph.nodes[walk[-1]]
+        # Straight back comes last.
+        turn = (angle_between(back, rays) - 1e-9) % 360
+        step = graph.neighbours[walk[-1]][int(turn.argmin())]
+        if walk[-1] == start and walk[1:2] == [step]:
             return walk
+        back = graph.nodes[walk[-1]] - graph.nodes[step]
         walk.append(step)
 
 
@@ -263,13 +229,8 @@ def _simple_loops(walk: list[int]) -> list[list[int]]:
 
 def _width(polygon: FloatArray) -> float:
     """Width of a long rectangle of the same area and perimeter; negative if the polygon runs clockwise."""
-    doubled_area = float(cross(polygon, np.roll(polygon, -1, axis=0)).sum())
-    return doubled_area / path_length(np.concatenate([polygon, polygon[:1]]))
-
-
-def path_length(path: FloatArray) -> float:
-    """Length of an open path of points, shape (n, 2)."""
-    return float(np.linalg.norm(np.diff(path, axis=0), axis=1).sum())
+    ahead = np.roll(polygon, -1, axis=0)
+    return float(cross(polygon, ahead).sum() / np.linalg.norm(ahead - polygon, axis=1).sum())
 
 
 def cross(a: FloatArray, b: FloatArray) -> FloatArray:
@@ -278,9 +239,10 @@ def cross(a: FloatArray, b: FloatArray) -> FloatArray:
     return product
 
 
-def angle_between(a: FloatArray, b: FloatArray) -> float:
-    """Degrees, -180 to 180, by which vector a must turn counter-clockwise to point along b."""
-    return float(np.degrees(np.arctan2(cross(a, b), a @ b)))
+def angle_between(a: FloatArray, b: FloatArray) -> FloatArray:
+    """Degrees, -180 to 180, by which vector a must turn counter-clockwise to point along b; broadcast."""
+    degrees: FloatArray = np.degrees(np.arctan2(cross(a, b), (a * b).sum(axis=-1)))
+    return degrees
 
 
 def nearest_on_segment(point: FloatArray, a: FloatArray, b: FloatArray) -> FloatArray:
@@ -327,9 +289,7 @@ def corners(polygon: FloatArray, tolerance: float) -> FloatArray:
 def turns(polygon: FloatArray) -> FloatArray:
     """Degrees by which a closed polygon turns left at each of its points."""
     ahead = np.roll(polygon, -1, axis=0) - polygon
-    before = np.roll(ahead, 1, axis=0)
-    degrees: FloatArray = np.degrees(np.arctan2(cross(before, ahead), (before * ahead).sum(axis=1)))
-    return degrees
+    return angle_between(np.roll(ahead, 1, axis=0), ahead)
 
 
 def inside(point: FloatArray, polygon: FloatArray) -> bool:
@@ -338,11 +298,6 @@ def inside(point: FloatArray, polygon: FloatArray) -> bool:
     spans = (a[:, 1] > 0) != (b[:, 1] > 0)
     left = (cross(a, b) > 0) != (b[:, 1] > a[:, 1])
     return bool(np.count_nonzero(spans & left) % 2)
-
-
-def clearance(point: FloatArray, polygon: FloatArray) -> float:
-    """Distance of a point to the nearest side of a polygon, inside or outside."""
-    return float(segment_distance(point, polygon, np.roll(polygon, -1, axis=0)).min())
 
 
 def ray_to_circle(origin: FloatArray, direction: FloatArray, centre: FloatArray, radius: float) -> float:

@@ -1,5 +1,6 @@
 """A domain at work: its spec with what plugins attach, and its targets, imported when first used."""
 
+import inspect
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
@@ -8,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from pydantic import ValidationError
 
-from proc3s.errors import Issue, SpecError, UsageError
+from proc3s.errors import Issue, SpecError, UsageError, did_you_mean
 from proc3s.specs import DomainSpec, ParamSpec, SamplerSpec, Target, TaskSpec
 from proc3s.state import Parameter, Signature, State, StateModel
 
@@ -44,6 +45,24 @@ class Domain:
         """The margin function of every constraint, in the order in which they are checked."""
         return {name: spec.load() for name, spec in self.spec.constraints.items()}
 
+    def require(self, task: TaskSpec) -> None:
+        """Import all that a run of a task needs. Raises SpecError with every target that is missing."""
+        spec = self.spec
+        named: list[tuple[str, Target | None]] = [("world", spec.world), ("execution", spec.execution)]
+        named += [(f"skills.{s.name}", s) for s in spec.skills.values()]
+        named += [(f"samplers.{s.name}", s) for s in self.samplers]
+        named += [(f"constraints.{c.name}", c) for c in spec.constraints.values()]
+        named += [(f"tasks.{task.name}.judge.{i}", judge) for i, judge in enumerate(task.judge)]
+        issues: list[Issue] = []
+        for field, target in named:
+            try:
+                _ = target and target.load()
+            except SpecError as error:
+                where = str(spec.folder / "domain.yaml") if spec.folder else f"domain {spec.name}"
+                issues += [Issue(where, f"{field}.target", i.message) for i in error.issues]
+        if issues:
+            raise SpecError(issues)
+
     def make_world(self, target: Target | None = None) -> "World[Any]":
         """A fresh world; `target` names another one than the reference world."""
         target = target or self.spec.world
@@ -58,11 +77,16 @@ class Domain:
         """
         rng = np.random.default_rng(seed)
         make = task.initial.load()
+        known = list(inspect.signature(make).parameters)[1:]
+        for name in options or {}:
+            if name not in known:
+                hint = did_you_mean(name, known)
+                raise UsageError(f"the scene of {task.name} has no option {name!r}{hint}")
         try:
             data = make(rng, **{**task.initial.args, **(options or {})})
         except (TypeError, ValueError) as error:
             if options:
-                raise UsageError(f"domain options of {task.name}: {error}") from error
+                raise UsageError(f"the scene of {task.name}: {error}") from error
             raise
         try:
             return self.states.parse(data)

@@ -114,6 +114,7 @@ def make_setup(registry: Registry, options: RunOptions, problem: Problem, pictur
     solver_options = part_options(solver, options.solver_options)
     make = solver.load()
     executor: Executor = registry.get(specs.ExecutorSpec, options.executor).load()()
+    problem.domain.require(problem.task)
 
     def make_solver(space: Space, budget: int, rng: np.random.Generator) -> Solver:
         made: Solver = make(space, budget, rng, solver_options)

@@ -57,7 +57,9 @@ def _field(name: str, spec: FieldSpec) -> str:
     annotation = {"": inner, "list": f"list[{inner}]", "dict": f"dict[str, {inner}]"}[container]
     default = "" if spec.required else f" = {spec.default!r}"
     if isinstance(spec.default, list | dict):
-        default = f" = field(default_factory=lambda: {spec.default!r})"
+        plain = type(spec.default).__name__
+        factory = f"lambda: {spec.default!r}" if spec.default else plain
+        default = f" = field(default_factory={factory})"
     comment = ", ".join(part for part in (spec.says, spec.unit) if part)
     return f"{name}: {annotation}{default}" + (f"  # {comment}" if comment else "")
 

@@ -83,8 +83,8 @@ def box():
     """Loads programs; closes all boxes in the end."""
     boxes = []
 
-    def load(source, answer="sketch", limits=Limits(), **changes):
-        boxes.append(BoxedSketch(program(source, answer, **changes), limits))
+    def load(source, answer="sketch", limits=None, **changes):
+        boxes.append(BoxedSketch(program(source, answer, **changes), limits or Limits()))
         return boxes[-1]
 
     yield load

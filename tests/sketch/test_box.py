@@ -301,7 +301,8 @@ def test_too_long_a_source_is_refused():
 def test_values_out_of_range_are_found_per_sample(box):
     sketch = box("""
         def gen_plan(state, x):
-            return [Action("repeat", [1])] * 2 + [Action("draw_line", [0, x, 0, 0 if x < 150 else float("nan")])]
+            other = 0 if x < 150 else float("nan")
+            return [Action("repeat", [1])] * 2 + [Action("draw_line", [0, x, 0, other])]
 
         def gen_domain(state):
             return {"x": ContinuousSampler(-50, 200)}
@@ -329,7 +330,7 @@ BREACHES = {
     "[Action('repeat', [np.zeros(2)])]": "times is of type ndarray, expected a number",
     "[Action('look', [(1, 2, 1e7), 'far'])]": r"at is 1e\+07, expected a finite number below 1e\+06",
     "[Action('look', [(1, 2), 'far'])]": "at has 2 numbers, expected 3",
-    "[Action('pick', ['object_5', Pose(1, 2, 3)])]": "'object_5', .*name of an object; there is object_0, object_1",
+    "[Action('pick', ['object_5', Pose(1, 2, 3)])]": "'object_5', .*name of an object; there is object_0",
     "[Action('pick', ['object_1', 'top'])]": "grasp is 'top', expected a grasp",
 }
 

@@ -70,7 +70,7 @@ def test_source_lines_are_quoted(box):
 
 
 def test_missing_functions(box):
-    assert issues(box, "def generate_plan(state):\n    pass\ngen_domain = 3") == [
+    assert issues(box, "def make(state):\n    pass\ngen_domain = 3") == [
         (None, "the program does not define gen_plan"),
         (3, "gen_domain is 3, expected a function"),
     ]

@@ -18,7 +18,7 @@ def after(number, what):
 def gen_plan(state, x):
     if x > {number - 0.5}:
         {what}
-    return [Action("draw_line", [x, 2, 3, 4])]
+    return [Action("draw_line", [x / 10, 2, 3, 4])]
 
 def gen_domain(state):
     return {{"x": DiscreteSampler(range(1000))}}
@@ -40,7 +40,7 @@ def test_a_hang_keeps_the_finished_samples_and_names_the_line(box, what, where):
     sketch = box(after(700, what), limits=SHORT)
     started = time.monotonic()
     with pytest.raises(
-        SketchTimeout, match=r"line 4: one call of gen_plan took longer than 0\.3 s"
+        SketchTimeout, match=r"line 3: one call of gen_plan took longer than 0\.3 s"
     ) as caught:
         sketch.plans(COUNTING)
     assert time.monotonic() - started < 2
@@ -48,7 +48,7 @@ def test_a_hang_keeps_the_finished_samples_and_names_the_line(box, what, where):
     done = caught.value.done
     assert len(done) == 700
     assert not done.errors
-    assert [done.plan(i)[0].args[0] for i in (0, 699)] == [0.0, 699.0]
+    assert [done.plan(i)[0].args[0] for i in (0, 699)] == [0.0, 69.9]
     with pytest.raises(SketchCrash, match="has ended"):
         sketch.plans(COUNTING)
 
@@ -67,7 +67,7 @@ def test_a_batch_has_a_limit_of_its_own(box):
 
 def test_cpu_time_has_a_limit(box):
     with pytest.raises(SketchTimeout, match="used more than 2 s of CPU time"):
-        box(after(5, "while True: pass"), limits=Limits(cpu=2, call=20)).plans(COUNTING)
+        box(after(700, "while True: pass"), limits=Limits(cpu=2, call=20)).plans(COUNTING)
 
 
 @pytest.mark.parametrize(
@@ -75,8 +75,8 @@ def test_cpu_time_has_a_limit(box):
 )
 def test_memory(box, what):
     with pytest.raises(SketchMemoryError, match="MemoryError") as caught:
-        box(after(300, what), limits=Limits(memory=64 << 20)).plans(COUNTING)
-    assert len(caught.value.done) == 300
+        box(after(700, what), limits=Limits(memory=64 << 20)).plans(COUNTING)
+    assert len(caught.value.done) == 700
 
 
 def test_memory_while_loading(box):
@@ -87,17 +87,16 @@ def test_memory_while_loading(box):
 
 
 def test_a_crash_inside_c_code(box):
-    # deep recursion in the deallocator of a C iterator overflows the C stack
-    crash = "i = iter(())\n        for _ in range(10**6): i = filter(None, i)\n        del i"
-    sketch = box(after(300, crash))
+    crash = "np.lib.stride_tricks.as_strided(np.zeros(1), (10**6,), (4096,)).sum()"
+    sketch = box(after(700, crash))
     with pytest.raises(SketchCrash, match=r"process died \(SIGSEGV\)") as caught:
         sketch.plans(COUNTING)
-    assert len(caught.value.done) == 300
+    assert len(caught.value.done) == 700
 
 
 def test_a_program_cannot_be_ended_by_an_exception(box):
     batch = box(after(1, "raise SystemExit(0) from KeyboardInterrupt()")).plans(COUNTING[:3])
-    assert str(batch.errors[1]) == "line 4: SystemExit: 0"
+    assert str(batch.errors[1]) == "line 3: SystemExit: 0"
 
 
 def test_replies_of_a_batch_have_a_limit(box):

@@ -97,9 +97,15 @@ def check(registry: Registry, folder: Path, within: str | None, update: bool, gi
             path.unlink()
         else:
             typer.echo(f"approved, but no longer rendered: {path}")
-    done = "approved" if update else "differ from the approved ones; approve them with --update"
-    typer.echo(f"{len(rendered)} renderings, {len(stale) + len(orphans)} {done}", err=True)
-    return 2 if (stale or orphans) and not update else 0
+    changed = len(stale) + len(orphans)
+    typer.echo(f"{len(rendered)} renderings, {_verdict(changed, update)}", err=True)
+    return 2 if changed and not update else 0
+
+
+def _verdict(changed: int, update: bool) -> str:
+    if not changed:
+        return "all as approved"
+    return f"{changed} approved" if update else f"{changed} not as approved; approve them with --update"
 
 
 def _read(path: Path) -> str | None:

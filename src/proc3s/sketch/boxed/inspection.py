@@ -88,12 +88,12 @@ def read_parameters(gen_plan: Callable[..., Any], lines: Lines, problems: list[P
             star = _VARIADIC[parameter.kind]
             text = f"gen_plan must name its parameters, {star}{parameter.name} is not allowed"
             problems.append((text, lines.of_parameter(parameter.name)))
-    if len(parameters) > MOST_PARAMETERS:
-        text = f"gen_plan has {len(parameters)} parameters, at most {MOST_PARAMETERS} are possible"
-        problems.append((text, lines.of("gen_plan")))
     named = [p for p in parameters if p.kind not in _VARIADIC]
     if not named:
         problems.append(("gen_plan must take the state as its first parameter", lines.of("gen_plan")))
+    if len(named) - 1 > MOST_PARAMETERS:
+        text = f"gen_plan has {len(named) - 1} parameters, at most {MOST_PARAMETERS} are possible"
+        problems.append((text, lines.of("gen_plan")))
     return [
         Parameter(
             name=p.name,
@@ -101,7 +101,7 @@ def read_parameters(gen_plan: Callable[..., Any], lines: Lines, problems: list[P
             optional=p.default is not p.empty,
             by_keyword=p.kind is p.KEYWORD_ONLY,
         )
-        for p in named[1:MOST_PARAMETERS]
+        for p in named[1 : MOST_PARAMETERS + 1]
     ]
 
 

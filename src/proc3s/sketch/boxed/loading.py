@@ -53,7 +53,7 @@ class Program:
 
     def probe(self, row: list[float | None]) -> list[Problem]:
         """What one call shows to be wrong with the actions; None in the row stands for a missing sampler."""
-        if not self.callable:
+        if not self.complete:
             return []
         stand_in = [STAND_IN if value is None else value for value in row]
         try:
@@ -66,9 +66,10 @@ class Program:
         return [(text, lines.get(id(action)) or self._lines.of("gen_plan")) for text, action in found]
 
     @property
-    def callable(self) -> bool:
-        """Whether there is a gen_plan to ask."""
-        return self.answer == "plan" or callable(self._names.get("gen_plan"))
+    def complete(self) -> bool:
+        """Whether there is a gen_plan that can be asked."""
+        gen_plan = self._names.get("gen_plan")
+        return gen_plan is not None and callable(gen_plan) is (self.answer != "plan")
 
     def _prelude(self, request: dict[str, Any]) -> dict[str, Any]:
         try:

@@ -1,0 +1,128 @@
+import numpy as np
+import pytest
+import toy_world
+from hypothesis import given
+from hypothesis import strategies as st
+
+from proc3s import Action, Space
+from proc3s.jitter import Jitter
+from proc3s.samplers import ContinuousSampler, DiscreteSampler
+from proc3s.state import Parameter, Pose, Signature
+
+finite = st.floats(allow_nan=False, allow_infinity=False)
+unit = st.floats(0, 1, exclude_max=True)
+EDGE = np.array([[0.0], [0.5], [np.nextafter(1, 0)], [1.0]])
+
+
+@given(finite, finite, st.lists(unit, min_size=1))
+def test_continuous_values_lie_between_the_bounds(a, b, u):
+    low, high = min(a, b), max(a, b)
+    values = ContinuousSampler(low, high).decode(np.array(u)[:, None])
+    assert values.shape == (len(u), 1)
+    assert ((low <= values) & (values <= high)).all()
+
+
+def test_continuous_values_are_uniform():
+    u = np.linspace(0, 1, 5)[:, None]
+    assert ContinuousSampler(-1, 3).decode(u).ravel().tolist() == [-1, 0, 1, 2, 3]
+
+
+def test_equal_bounds_are_a_constant():
+    assert (ContinuousSampler(2, 2).decode(EDGE) == 2).all()
+
+
+@pytest.mark.parametrize("bounds", [(1, 0), (np.nan, 1), (0, np.nan), (0, np.inf), (-np.inf, 0)])
+def test_bounds_are_finite_and_ordered(bounds):
+    with pytest.raises(ValueError, match="min|bounds"):
+        ContinuousSampler(*bounds)
+
+
+@given(st.integers(1, 50), st.lists(st.floats(0, 1), min_size=1))
+def test_discrete_values_are_indices(n, u):
+    values = DiscreteSampler(list(range(n))).decode(np.array(u)[:, None])
+    assert ((values >= 0) & (values < n) & (values == np.floor(values))).all()
+
+
+@given(st.integers(1, 20))
+def test_discrete_values_are_equally_likely(n):
+    u = (np.arange(10 * n) + 0.5)[:, None] / (10 * n)
+    assert np.bincount(DiscreteSampler(range(n)).decode(u).ravel().astype(int)).tolist() == [10] * n
+
+
+def test_a_discrete_sampler_needs_a_value():
+    with pytest.raises(ValueError, match="at least one"):
+        DiscreteSampler([])
+
+
+def test_a_space_gives_each_sampler_its_own_dimension():
+    space = Space({"x": ContinuousSampler(0, 10), "k": DiscreteSampler("abc"), "y": ContinuousSampler(5, 5)})
+    assert space.dim == 3
+    rows = space.decode(np.array([[0.25, 0.9, 0.1], [0.5, 0.0, 0.2]]))
+    assert rows.tolist() == [[2.5, 2, 5], [5, 0, 5]]
+
+
+def test_a_space_without_parameters():
+    assert Space({}).dim == 0
+    assert Space({}).decode(np.empty((4, 0))).shape == (4, 0)
+
+
+SLIDE = Signature("slide", (Parameter("bead", "object", choices=("a", "b")), Parameter("by", "float", noise=2)))
+LOOK = Signature("look", (Parameter("at", "point", noise=0.5), Parameter("pose", "pose"), Parameter("n", "int")))
+PLAN = [("slide", "b", 3.0), ("look", (1.0, 2.0, 3.0), Pose(1, 2, 3), 4), ("slide", "a", -1.0)]
+
+
+@pytest.fixture
+def jitter():
+    return Jitter(toy_world.columns((SLIDE, LOOK), [PLAN]))
+
+
+def test_every_noisy_number_is_a_dimension(jitter):
+    assert jitter.space.dim == 5
+
+
+def test_the_centre_is_the_plan_itself(jitter):
+    batch = jitter.plans(np.full((2, 5), 0.5))
+    assert batch.plan(0) == batch.plan(1) == toy_world.columns((SLIDE, LOOK), [PLAN]).plan(0)
+
+
+def test_noise_is_normal_with_the_declared_deviation(jitter):
+    up, down = 0.8413447460685429, 1 - 0.8413447460685429  # one standard deviation
+    slide, look, last = jitter.plans(np.array([[up, up, 0.5, down, down]])).plan(0)
+    assert slide.args == ("b", pytest.approx(5.0))
+    assert look.args == (pytest.approx((1.5, 2.0, 2.5)), Pose(1, 2, 3), 4)
+    assert last.args == ("a", pytest.approx(-3.0))
+
+
+@given(st.lists(st.lists(st.floats(0, 1), min_size=5, max_size=5), min_size=1, max_size=5))
+def test_noise_is_finite_everywhere_and_touches_nothing_else(u):
+    batch = Jitter(toy_world.columns((SLIDE, LOOK), [PLAN])).plans(np.array(u))
+    assert np.isfinite(batch.values).all()
+    for i in range(len(u)):
+        assert [a.skill for a in batch.plan(i)] == ["slide", "look", "slide"]
+        assert batch.plan(i)[1].args[1:] == (Pose(1, 2, 3), 4)
+
+
+def test_rows_do_not_influence_each_other(jitter):
+    u = np.random.default_rng(0).random((6, 5))
+    whole = jitter.plans(u)
+    assert [whole.plan(i) for i in range(6)] == [jitter.plans(u[i : i + 1]).plan(0) for i in range(6)]
+
+
+def test_a_plan_without_noise_has_no_dimension():
+    quiet = Signature("slide", (Parameter("by", "float"),))
+    jitter = Jitter(toy_world.columns((quiet,), [[("slide", 1.0)]]))
+    assert jitter.space.dim == 0
+    assert jitter.plans(np.empty((1, 0))).plan(0) == (Action("slide", (1.0,)),)
+
+
+def test_noise_never_makes_an_action_that_its_skill_forbids():
+    narrow = Signature("slide", (Parameter("by", "float", low=0, high=1, noise=50),))
+    batch = Jitter(toy_world.columns((narrow,), [[("slide", 0.5)]])).plans(np.array([[0.01], [0.5], [0.99]]))
+    for i in range(3):
+        assert i in batch.errors or 0 <= batch.plan(i)[0].args[0] <= 1
+    assert batch.plan(1)[0].args == (0.5,)
+
+
+def test_poses_are_perturbed_too():
+    grasping = Signature("grasp", (Parameter("at", "pose", noise=0.1),))
+    assert Jitter(toy_world.columns((grasping,), [[("grasp", Pose(0, 0, 0))]])).space.dim == 6
