@@ -13,12 +13,14 @@ from proc3s.state import FloatArray
 
 Edge: TypeAlias = tuple[int, int]
 
-NEAR = 0.01 * 2**0.5
-"""Gap that a person overlooks, as a share of the diameter: 1 % of the diagonal of the square around it."""
-DOT = 0.001
-"""Strokes shorter than this share of the diameter are dots, no strokes."""
-FLAT = 12.0
-"""Turns of an outline below this many degrees are no corners."""
+NEAR = 0.01 * 2**0.5  # in diameters: a gap that nobody sees, 1 % of the diagonal of the square around it all
+DOT = 0.001  # in diameters: shorter strokes are dots
+FLAT = 12.0  # degrees: smaller turns of an outline are no corners
+TANGLED = 1000  # crossings beyond which nobody can read a drawing
+
+
+class TangledError(ValueError):
+    """The strokes cross in too many points."""
 
 
 def _edge(i: int, j: int) -> Edge:
@@ -29,8 +31,7 @@ def _edge(i: int, j: int) -> Edge:
 class StrokeGraph:
     """Nodes where strokes end, meet or cross, shape (n, 2), and the straight pieces between them.
 
-    Edges are pairs (i, j) of node indices, i < j. Two points closer than `tolerance`, in canvas units,
-    count as one. Stubs up to twice that long are gone.
+    Edges are pairs (i, j) of node indices, i < j. Gaps and stubs up to `tolerance` (canvas units) are gone.
     """
 
     nodes: FloatArray
@@ -76,18 +77,18 @@ def stroke_graph(lines: FloatArray) -> StrokeGraph:
     """The graph of n straight lines, shape (n, 4): x and y of one end, x and y of the other.
 
     It does not depend on the order, direction or repetition of the lines; dots are dropped.
+    Raises TangledError if there are more than 1000 crossings.
     """
     strokes = _canonical(lines)
     ends = strokes.reshape(-1, 2)
     tolerance = NEAR * _diameter(ends)
-    same = 1e-3 * tolerance
     feet = nearest_on_segment(ends[:, None], strokes[:, 0], strokes[:, 1])
     beside = np.linalg.norm(feet - ends[:, None], axis=2) <= tolerance
     points = np.unique(np.concatenate([ends, feet[beside], _crossings(strokes)]), axis=0)
-    labels, nodes = _distinct(points, same)
+    labels, nodes = _distinct(points, 1e-3 * tolerance)
     edges: set[Edge] = set()
     for a, b in strokes:
-        on = np.unique(labels[segment_distance(points, a, b) <= same])
+        on = np.unique(labels[segment_distance(points, a, b) <= 1e-3 * tolerance])
         path = on[np.argsort((nodes[on] - a) @ (b - a), kind="stable")].tolist()
         edges.update(_edge(*pair) for pair in pairwise(path))
     graph = _gaps_closed(StrokeGraph(nodes, frozenset(edges), tolerance))
@@ -98,9 +99,8 @@ def _canonical(lines: FloatArray) -> FloatArray:
     """Strokes of shape (n, 2, 2), each from its smaller to its larger end, sorted, unique, no dots."""
     sorted_ends = [sorted([(a, b), (c, d)]) for a, b, c, d in np.asarray(lines).tolist()]
     strokes = np.unique(np.array(sorted_ends, dtype=np.float64).reshape(-1, 2, 2), axis=0)
-    length = np.linalg.norm(strokes[:, 1] - strokes[:, 0], axis=1)
-    kept: FloatArray = strokes[length > DOT * _diameter(strokes[length > 0].reshape(-1, 2))]
-    return kept
+    length: FloatArray = np.linalg.norm(strokes[:, 1] - strokes[:, 0], axis=1)
+    return strokes[length > DOT * _diameter(strokes.reshape(-1, 2))]
 
 
 def _diameter(points: FloatArray) -> float:
@@ -117,6 +117,8 @@ def _crossings(strokes: FloatArray) -> FloatArray:
     t, u = cross(q - p, s) / det, cross(q - p, r) / det
     meet = (t >= 0) & (t <= 1) & (u >= 0) & (u <= 1)
     found: FloatArray = p[meet] + t[meet, None] * r[meet]
+    if len(found) > TANGLED:
+        raise TangledError(f"too tangled to read: the strokes cross at {len(found)} points")
     return found
 
 
@@ -132,13 +134,14 @@ def _distinct(points: FloatArray, same: float) -> tuple[NDArray[np.int64], Float
 
 
 def _gaps_closed(graph: StrokeGraph) -> StrokeGraph:
-    """Loose ends are joined to nodes within the tolerance to which no stroke leads near by, nearest first."""
+    """Loose ends are joined to near loose ends, or else to one near node, unless a short path leads there."""
     ends = graph.of_degree(1, 1)
     gap = np.linalg.norm(graph.nodes[ends][:, None] - graph.nodes[None], axis=2)
     close = np.argwhere(gap <= graph.tolerance)
     for k, node in close[np.argsort(gap[*close.T], kind="stable")].tolist():
-        end, around = ends[k], set(np.flatnonzero(gap[k] <= 2 * graph.tolerance).tolist())
-        if len(graph.neighbours[end]) == 1 and node not in _reachable(graph, end, around):
+        end, around = ends[k], set(np.flatnonzero(gap[k] <= 3 * graph.tolerance).tolist())
+        gaping = node in ends or len(graph.neighbours[end]) == 1
+        if gaping and node not in _reachable(graph, end, around):
             graph = StrokeGraph(graph.nodes, graph.edges | {_edge(end, node)}, graph.tolerance)
     return graph
 
@@ -164,14 +167,18 @@ def _reachable(graph: StrokeGraph, start: int, allowed: set[int]) -> set[int]:
 
 
 def _without_stubs(graph: StrokeGraph) -> StrokeGraph:
-    """Strokes that overshoot each other leave stubs; at an acute corner twice as long as the overshoot."""
+    """Strokes that overshoot each other leave stubs: they end beside another stroke."""
     while True:
-        loose, forks = set(graph.of_degree(1, 1)), set(graph.of_degree(3))
-        tails = [path for path in graph.chains if loose & {*path} and forks & {*path}]
-        stubs = [path for path in tails if graph.length(path) <= 2 * graph.tolerance]
+        loose, forks, stubs = set(graph.of_degree(1, 1)), set(graph.of_degree(3)), set[Edge]()
+        for path in graph.chains:
+            rest = graph.without(pairwise(path))
+            if forks & {*path} and (end := loose & {*path}):
+                a, b = graph.nodes[np.array(sorted(rest.edges)).T]
+                if segment_distance(graph.nodes[end.pop()], a, b).min() <= graph.tolerance:
+                    stubs |= graph.edges - rest.edges
         if not stubs:
             return graph
-        graph = graph.without(edge for path in stubs for edge in pairwise(path))
+        graph = graph.without(stubs)
 
 
 def _forks_merged(graph: StrokeGraph) -> StrokeGraph:
@@ -187,8 +194,7 @@ def _forks_merged(graph: StrokeGraph) -> StrokeGraph:
 def outlines(graph: StrokeGraph) -> list[FloatArray]:
     """The outermost closed curves of the drawing, each a simple polygon (k, 2), counter-clockwise.
 
-    Every other closed curve lies inside one of them. Curves that touch in one point only are two curves;
-    curves narrower than half the tolerance are none.
+    Every other one lies inside one of them. Curves that touch in one point only are two; specks are none.
     """
     nodes, core = graph.nodes, graph
     while leaves := core.of_degree(1, 1):
@@ -196,41 +202,28 @@ def outlines(graph: StrokeGraph) -> list[FloatArray]:
     unseen, loops = set(core.neighbours), list[FloatArray]()
     while unseen:
         lowest = min(unseen, key=lambda node: (nodes[node][1], nodes[node][0]))
-        loops += [nodes[loop] for loop in _simple_loops(_outer_walk(core, lowest))]
+        loops += [nodes[loop] for loop in _outer_loops(core, lowest)]
         unseen -= _reachable(core, lowest, unseen)
-    wide = [loop for loop in loops if _width(loop) > graph.tolerance / 2]
+    wide = [loop for loop in loops if cross(loop, np.roll(loop, -1, axis=0)).sum() > graph.tolerance**2]
     return [a for a in wide if not any(inside((a[0] + a[1]) / 2, b) for b in wide if b is not a)]
 
 
-def _outer_walk(graph: StrokeGraph, start: int) -> list[int]:
-    """Once around a component with the outside on the right, from its lowest node back to it."""
-    walk, back = [start], np.array([0.0, -1.0])
+def _outer_loops(graph: StrokeGraph, start: int) -> list[list[int]]:
+    """The simple loops on a walk around a component, the outside on the right, from its lowest node."""
+    loops, path, back, first = list[list[int]](), [start], np.array([0.0, -1.0]), -1
     while True:
-        rays = graph.nodes[graph.neighbours[walk[-1]]] - graph.nodes[walk[-1]]
-        # Straight back comes last.
-        turn = (angle_between(back, rays) - 1e-9) % 360
-        step = graph.neighbours[walk[-1]][int(turn.argmin())]
-        if walk[-1] == start and walk[1:2] == [step]:
-            return walk
-        back = graph.nodes[walk[-1]] - graph.nodes[step]
-        walk.append(step)
-
-
-def _simple_loops(walk: list[int]) -> list[list[int]]:
-    loops, open_path = [], list[int]()
-    for node in walk:
-        if node in open_path:
-            at = open_path.index(node)
-            loops.append(open_path[at:])
-            del open_path[at:]
-        open_path.append(node)
-    return [loop for loop in loops if len(loop) > 2]
-
-
-def _width(polygon: FloatArray) -> float:
-    """Width of a long rectangle of the same area and perimeter; negative if the polygon runs clockwise."""
-    ahead = np.roll(polygon, -1, axis=0)
-    return float(cross(polygon, ahead).sum() / np.linalg.norm(ahead - polygon, axis=1).sum())
+        others = graph.neighbours[path[-1]]
+        # A hair less than no turn is the way back: the last resort.
+        turn = (angle_between(back, graph.nodes[others] - graph.nodes[path[-1]]) - 1e-9) % 360
+        step = others[int(turn.argmin())]
+        if path == [start] and step == first:
+            return [loop for loop in loops if len(loop) > 2]
+        first = step if first < 0 else first
+        back = graph.nodes[path[-1]] - graph.nodes[step]
+        if step in path:
+            loops.append(path[path.index(step) :])
+            del path[path.index(step) :]
+        path.append(step)
 
 
 def cross(a: FloatArray, b: FloatArray) -> FloatArray:
@@ -261,10 +254,8 @@ def segment_distance(point: FloatArray, a: FloatArray, b: FloatArray) -> FloatAr
 
 def simplify(path: FloatArray, tolerance: float) -> FloatArray:
     """The path, shape (n, 2), without points that are nearer than `tolerance` to it (Douglas-Peucker)."""
-    keep = {0, len(path) - 1}
-    todo = [(0, len(path) - 1)]
-    while todo:
-        i, j = todo.pop()
+    keep, todo = {0, len(path) - 1}, [(0, len(path) - 1)]
+    for i, j in todo:
         off = segment_distance(path[i + 1 : j], path[i], path[j])
         if off.max(initial=0.0) > tolerance:
             k = i + 1 + int(off.argmax())
@@ -277,10 +268,9 @@ def corners(polygon: FloatArray, tolerance: float) -> FloatArray:
     """The corners that a person sees in a closed polygon, shape (n, 2), in its order; at least 12 degrees."""
     first = int(np.linalg.norm(polygon - polygon.mean(axis=0), axis=1).argmax())
     ring = np.roll(polygon, -first, axis=0)
-    half = int(np.linalg.norm(ring - ring[0], axis=1).argmax())
-    there = simplify(ring[: half + 1], tolerance)
-    back = simplify(np.concatenate([ring[half:], ring[:1]]), tolerance)
-    found = np.concatenate([there[:-1], back[:-1]])
+    far = int(np.linalg.norm(ring - ring[0], axis=1).argmax())
+    halves = [ring[: far + 1], np.concatenate([ring[far:], ring[:1]])]
+    found = np.concatenate([simplify(half, tolerance)[:-1] for half in halves])
     while len(found) > 3 and np.abs(turns(found)).min() < FLAT:
         found = np.delete(found, np.abs(turns(found)).argmin(), axis=0)
     return found
@@ -295,17 +285,15 @@ def turns(polygon: FloatArray) -> FloatArray:
 def inside(point: FloatArray, polygon: FloatArray) -> bool:
     """Whether a point lies inside a simple polygon, shape (n, 2)."""
     a, b = polygon - point, np.roll(polygon, -1, axis=0) - point
-    spans = (a[:, 1] > 0) != (b[:, 1] > 0)
-    left = (cross(a, b) > 0) != (b[:, 1] > a[:, 1])
-    return bool(np.count_nonzero(spans & left) % 2)
+    on_the_left = ((a[:, 1] > 0) != (b[:, 1] > 0)) & ((cross(a, b) > 0) != (b[:, 1] > a[:, 1]))
+    return bool(np.count_nonzero(on_the_left) % 2)
 
 
 def ray_to_circle(origin: FloatArray, direction: FloatArray, centre: FloatArray, radius: float) -> float:
     """How far a ray goes before it meets a circle; 0 from inside, infinity if it misses."""
     unit = direction / np.linalg.norm(direction)
     ahead, beside = float((centre - origin) @ unit), float(cross(unit, centre - origin))
-    if np.hypot(ahead, beside) <= radius:
+    chord = radius**2 - beside**2
+    if ahead**2 <= chord:
         return 0.0
-    if ahead < 0 or abs(beside) > radius:
-        return float("inf")
-    return ahead - float(np.sqrt(radius**2 - beside**2))
+    return ahead - chord**0.5 if ahead > 0 and chord >= 0 else float("inf")

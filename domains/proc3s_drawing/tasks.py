@@ -7,8 +7,8 @@ import numpy as np
 
 CANVAS_SIZE = 100.0
 COLORS = ("red", "blue", "green", "orange", "purple", "brown", "pink", "gray", "olive", "cyan")
-_DRAWS_PER_CIRCLE = 200
-_SCENES = 200
+_DRAWS_PER_CIRCLE = 500
+_SCENES = 20
 
 
 def circles(
@@ -31,9 +31,8 @@ def _place(
     rng: np.random.Generator, count: int, smallest: float, largest: float
 ) -> list[dict[str, Any]] | None:
     placed: list[dict[str, Any]] = []
-    for _ in range(count * _DRAWS_PER_CIRCLE):
-        if len(placed) == count:
-            break
+    misses = 0
+    while len(placed) < count and misses < _DRAWS_PER_CIRCLE:
         radius = rng.uniform(smallest, largest)
         x, y = rng.uniform(0, CANVAS_SIZE, size=2).tolist()
         if _free(placed, x, y, radius):
@@ -42,6 +41,9 @@ def _place(
             placed.append(
                 {"name": f"object_{index}", "x_pos": x, "y_pos": y, "radius": radius, "color": color}
             )
+            misses = 0
+        else:
+            misses += 1
     return placed if len(placed) == count else None
 
 

@@ -45,7 +45,7 @@ def read(path: Path) -> Completion:
         origin = Origin.model_validate({key.strip(): value.strip() for key, value in pairs})
     except ValidationError as error:
         raise LLMError(
-            f"{path}: the answer must begin with its origin (authored or recorded): {error}"
+            f"{path}: an answer begins with its origin, e.g. the three lines `---`, `origin: authored`, `---`"
         ) from error
     return Completion(
         text=text[front.end() :].strip() + "\n" if front else text,

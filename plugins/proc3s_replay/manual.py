@@ -34,28 +34,38 @@ class Manual:
         domain = request.task.partition("/")[0]
         name = f"{domain}.{stem(request)}"
         prompt, answer = self._folder / f"{name}.prompt.md", self._folder / f"{name}.answer.md"
+        if self._wait != 0 and not _text(answer):
+            print(f"read {prompt}\nand write the answer to {answer}", file=sys.stderr)
         try:
-            self._folder.mkdir(parents=True, exist_ok=True)
-            prompt.write_text(_prompt(request), encoding="utf-8")
+            _ask(_prompt(request), prompt, answer)
         except OSError as error:
             raise LLMError(f"the prompt {prompt} cannot be written: {error.strerror}") from error
-        if not _has_text(answer) and self._wait != 0:
-            print(f"read {prompt}\nand write the answer to {answer}", file=sys.stderr)
         begun = time.monotonic()
-        while not _has_text(answer):
+        while not (text := _text(answer)):
             if self._wait is not None and time.monotonic() - begun >= self._wait:
                 raise Pending(
                     f"pending: read {prompt}, write the answer to {answer}, then run the same command again"
                 )
             time.sleep(_POLL_SECONDS)
-        return Completion(
-            text=answer.read_text(encoding="utf-8"), source="manual", model="a person", finish_reason="stop"
-        )
+        return Completion(text=text, source="manual", model="a person", finish_reason="stop")
+
+
+def _ask(text: str, prompt: Path, answer: Path) -> None:
+    """Write the prompt. An answer to another prompt of the same name is put aside."""
+    prompt.parent.mkdir(parents=True, exist_ok=True)
+    if prompt.is_file() and prompt.read_text(encoding="utf-8") != text and answer.is_file():
+        answer.replace(answer.with_suffix(".old.md"))
+    prompt.write_text(text, encoding="utf-8")
 
 
 def _prompt(request: Request) -> str:
     return "\n".join(f"# {m.role}: {m.kind}\n\n{m.text.rstrip()}\n" for m in request.messages)
 
 
-def _has_text(path: Path) -> bool:
-    return path.is_file() and bool(path.read_text(encoding="utf-8").strip())
+def _text(answer: Path) -> str:
+    """The answer so far; empty while there is none. Raises LLMError if it is not text."""
+    try:
+        text = answer.read_text(encoding="utf-8") if answer.is_file() else ""
+    except UnicodeDecodeError as error:
+        raise LLMError(f"the answer {answer} is not UTF-8 text: {error.reason}") from error
+    return text if text.strip() else ""

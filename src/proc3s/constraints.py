@@ -1,10 +1,14 @@
 """Constraints: a margin for every transition, and the violations that negative margins are."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from numbers import Real
+
+import numpy as np
 
 from proc3s.domain import Domain
-from proc3s.errors import Issue, SpecError
+from proc3s.errors import Issue, SpecError, blame
 from proc3s.world import Transition
 
 
@@ -42,7 +46,9 @@ def check(
     violations: list[Violation] = []
     for name, function in domain.margins.items():
         spec = domain.spec.constraints[name]
-        margin = _margin(name, function(transition, **spec.args))
+        with blame(f"constraint {name}"):
+            value = function(transition, **spec.args)
+        margin = _margin(name, value)
         if margin is None:
             continue
         margins[name] = margin.value
@@ -53,19 +59,21 @@ def check(
 
 
 def _margin(name: str, value: object) -> Margin | None:
-    if isinstance(value, bool):
+    if value is None:
+        return None
+    if isinstance(value, bool | np.bool_):
         value = 1.0 if value else -1.0
-    if isinstance(value, int | float):
+    if isinstance(value, Real):
         value = Margin(float(value))
-    if value is None or (isinstance(value, Margin) and value.value == value.value):
-        return value
-    message = f"returned {value!r}, not a margin (a finite number, a Margin, a bool or None)"
+    if isinstance(value, Margin) and isinstance(value.value, Real) and not math.isnan(value.value):
+        return Margin(float(value.value), value.details)
+    message = f"returned {value!r}, not a margin (a number, a Margin, a bool or None)"
     raise SpecError([Issue(f"constraint {name}", "target", message)])
 
 
 def _sentence(name: str, says: str, details: Mapping[str, str]) -> str:
     try:
         return says.format_map(details)
-    except (KeyError, ValueError, IndexError) as error:
+    except (KeyError, ValueError, IndexError, AttributeError) as error:
         message = f"the margin carries no detail {error} ({', '.join(details) or 'it carries none'})"
         raise SpecError([Issue(f"constraint {name}", "says", message)]) from error

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TypeAlias
 
 from proc3s.events import AnswerReceived, Emit, PromptRendered
@@ -47,7 +48,6 @@ def ask_llm(llm: LLM, prompter: Prompter, problem: Problem, emit: Emit) -> Propo
     """A proposer that renders the conversation and asks a language model."""
 
     def propose(round_: int, history: Sequence[Exchange]) -> Proposal:
-        folder = problem.domain.spec.folder
         messages = conversation(prompter, problem, history)
         emit(PromptRendered(round=round_, sha256=digest(messages), messages=messages))
         completion = llm.complete(
@@ -57,13 +57,19 @@ def ask_llm(llm: LLM, prompter: Prompter, problem: Problem, emit: Emit) -> Propo
                 template=prompter.method.template,
                 seed=problem.seed,
                 round=round_,
-                bundled=folder / "answers" if folder else None,
+                bundled=_bundled(problem),
             )
         )
         emit(AnswerReceived(round=round_, completion=completion))
         return Proposal(completion.text, completion.source, lambda: extract_program(completion.text), round_)
 
     return propose
+
+
+def _bundled(problem: Problem) -> Path | None:
+    """The domain's answers, unless the goal is another than the one they answer."""
+    folder = problem.domain.spec.folder
+    return folder / "answers" if folder and problem.goal == problem.task.instruction else None
 
 
 def given_program(program: str, origin: Source = "none", round_: int = 0) -> Propose:

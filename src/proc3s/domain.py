@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from pydantic import ValidationError
 
-from proc3s.errors import Issue, SpecError, UsageError, did_you_mean
+from proc3s.errors import Issue, SpecError, UsageError, blame, did_you_mean
 from proc3s.specs import DomainSpec, ParamSpec, SamplerSpec, Target, TaskSpec
 from proc3s.state import Parameter, Signature, State, StateModel
 
@@ -82,12 +82,11 @@ class Domain:
             if name not in known:
                 hint = did_you_mean(name, known)
                 raise UsageError(f"the scene of {task.name} has no option {name!r}{hint}")
-        try:
-            data = make(rng, **{**task.initial.args, **(options or {})})
-        except (TypeError, ValueError) as error:
-            if options:
+        with blame(f"scene of {task.name}"):
+            try:
+                data = make(rng, **{**task.initial.args, **(options or {})})
+            except ValueError as error:
                 raise UsageError(f"the scene of {task.name}: {error}") from error
-            raise
         try:
             return self.states.parse(data)
         except ValidationError as error:

@@ -1,6 +1,8 @@
 """Errors meant for people: a message without a traceback, and the exit code that goes with it."""
 
-from collections.abc import Iterable, Sequence
+import traceback
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import ClassVar
@@ -52,6 +54,19 @@ class SpecError(Proc3sError):
     def __init__(self, issues: Sequence[Issue]) -> None:
         self.issues = tuple(issues)
         super().__init__("\n".join(str(issue) for issue in self.issues))
+
+
+@contextmanager
+def blame(field: str) -> Iterator[None]:
+    """Turn whatever a plugin's function raises into a SpecError that names the function and its line."""
+    try:
+        yield
+    except Proc3sError:
+        raise
+    except Exception as error:
+        frame = traceback.extract_tb(error.__traceback__)[-1]
+        text = f"raised {type(error).__name__}: {error}"
+        raise SpecError([Issue(f"{frame.filename}:{frame.lineno}", field, text)]) from error
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:

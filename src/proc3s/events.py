@@ -1,5 +1,6 @@
 """Typed events of a run: what logs, consoles and reports hang on."""
 
+import math
 from collections.abc import Callable, Sequence
 from typing import Any, Literal, TypeAlias
 
@@ -94,7 +95,7 @@ class BatchEvaluated(Event):
                 str(t.error) if t.error else v.text if v else None
                 for t, v in zip(trials, firsts, strict=True)
             ],
-            margin=[v.margin if v else None for v in firsts],
+            margin=[v.margin if v and math.isfinite(v.margin) else None for v in firsts],
         )
 
 
@@ -114,6 +115,7 @@ class PlanExecuted(Event):
     """The plan that was carried out, what it violated, and the judge's verdict."""
 
     event: Literal["plan_executed"] = "plan_executed"
+    round: int
     executed: Literal["solution", "fallback"]
     plan: list[dict[str, Any]]
     violations: list[dict[str, Any]]

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Literal
 
 from proc3s.constraints import Violation
+from proc3s.errors import blame
 from proc3s.events import Emit, PlanExecuted
 from proc3s.problem import Problem, carry_out
 from proc3s.state import Plan, State
@@ -24,9 +25,15 @@ class Execution:
 
 
 def execute(
-    problem: Problem, plan: Plan, executed: Literal["solution", "fallback"], picture: Path | None, emit: Emit
+    problem: Problem,
+    plan: Plan,
+    executed: Literal["solution", "fallback"],
+    round_: int,
+    picture: Path | None,
+    emit: Emit,
 ) -> Execution:
     """Carry a plan out in the execution world without stopping at violations; `picture` takes a PNG.
+    `round_` is the round whose program the plan is from.
 
     A fallback that turns out to violate nothing is a solution.
     """
@@ -42,6 +49,7 @@ def execute(
     score, reason = judge(problem, final, plan)
     emit(
         PlanExecuted(
+            round=round_,
             executed=executed,
             plan=[action.to_json() for action in plan],
             violations=[dataclasses.asdict(violation) for violation in trial.violations],
@@ -56,7 +64,8 @@ def judge(problem: Problem, final: State, plan: Plan) -> tuple[Score | None, str
     """All judges of the task must be satisfied; the reason of the first that is not, else of all."""
     if problem.goal != problem.task.instruction:
         return None, "nobody judges an instruction of your own"
-    scores = [target.load()(final, plan, **target.args) for target in problem.task.judge]
+    with blame(f"judge of {problem.name}"):
+        scores = [target.load()(final, plan, **target.args) for target in problem.task.judge]
     if not scores:
         return None, "the task has no judge"
     missed = [score for score in scores if not score.reached]

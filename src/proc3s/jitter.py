@@ -26,15 +26,18 @@ class Normal:
 
 
 class Jitter:
-    """A plan whose numbers are the open parameters, with the noise that their skills declare.
+    """A plan whose numbers are the open parameters, with the noise and within the range of their skills.
 
     `batch` holds the one plan. The paper's Gaussian baselines (appendix) perturb every numeric argument.
     """
 
     def __init__(self, batch: PlanBatch) -> None:
         self._batch = batch
-        noise = np.array([_column_noise(batch, a) for a in range(len(batch.skill))], dtype=object)
-        self._noise = np.concatenate([*map(np.asarray, noise), np.empty(0)])
+        params = [p for k in batch.skill for p in batch.signatures[k].params for _ in range(WIDTH[p.type])]
+        numeric = [p.type in ("float", "point") for p in params]
+        self._noise = np.where(numeric, [p.noise for p in params], 0.0)
+        self._low = np.where(numeric, [p.low for p in params], -np.inf)
+        self._high = np.where(numeric, [p.high for p in params], np.inf)
         names = {f"number_{i}": Normal(scale) for i, scale in enumerate(self._noise) if scale > 0}
         self.space = Space(names)
 
@@ -43,6 +46,7 @@ class Jitter:
         n, base = len(u), self._batch
         values = np.tile(base.values, (n, 1))
         values[:, self._noise > 0] += self.space.decode(u)
+        values = np.clip(values, self._low, self._high)
         actions, width = len(base.skill), base.values.size
         offset = np.add.outer(np.arange(n) * width, base.offset[:-1]).ravel()
         return PlanBatch(
@@ -52,8 +56,3 @@ class Jitter:
             offset=np.append(offset, n * width),
             values=values.ravel(),
         )
-
-
-def _column_noise(batch: PlanBatch, action: int) -> list[float]:
-    params = batch.signatures[batch.skill[action]].params
-    return [p.noise if p.type in ("float", "point") else 0.0 for p in params for _ in range(WIDTH[p.type])]

@@ -69,7 +69,7 @@ def make_problem(registry: Registry, options: RunOptions, goal_needed: bool = Tr
     Raises UsageError if the task has no instruction of its own and `goal` gives none.
     """
     domain, task = registry.task(options.task)
-    goal = options.goal if options.goal is not None else task.instruction
+    goal = options.goal or task.instruction
     if goal is None and goal_needed:
         raise UsageError(f'{options.task} has no instruction of its own; give one with --goal "…"')
     preset = registry.get(specs.PresetSpec, options.preset)

@@ -54,8 +54,10 @@ class Attempt:
     diagnosis: Diagnosis
     solution: Trial | None = None
     fallback: Plan | None = None
+    broken_off: Proc3sError | None = None
     samples: int = 0
     evaluations: int = 0
+    round: int = 0
 
 
 @dataclass(frozen=True)
@@ -79,6 +81,8 @@ def plan(setup: Setup, propose: Propose, emit: Emit) -> Outcome:
                 proposals.append(propose(round_, history))
             with clock("solve"):
                 attempts.append(attempt := _attempt(setup, proposals[-1], emit))
+            if attempt.broken_off:
+                raise attempt.broken_off
             if attempt.solution or (setup.method.samples == "none" and attempt.fallback):
                 break
             emit(RoundEnded(round=round_, diagnosis=attempt.diagnosis))
@@ -101,7 +105,7 @@ def _attempt(setup: Setup, proposal: Proposal, emit: Emit) -> Attempt:
         with _open_sketch(setup, proposal.round, emit) as (sketch, fallback):
             return _search(setup, sketch, fallback, proposal.round, emit)
     except SketchError as error:
-        return Attempt(diagnose((), error))
+        return Attempt(diagnose((), error), round=proposal.round)
 
 
 @contextmanager
@@ -145,15 +149,21 @@ def _search(setup: Setup, sketch: Sketch, fallback: Plan | None, round_: int, em
         diagnosis=diagnose(search.trials, search.halted),
         solution=search.solution,
         fallback=fallback if setup.method.fallback == "last_plan" else None,
+        broken_off=search.broken_off,
         samples=evaluator.samples,
         evaluations=evaluator.evaluations,
+        round=round_,
     )
 
 
 def _execute(setup: Setup, attempts: list[Attempt], emit: Emit) -> Execution | None:
     """Carry out the accepted plan, or the latest one to fall back on, and let the judge look."""
-    if solution := attempts[-1].solution:
-        assert solution.plan is not None
-        return execute(setup.problem, solution.plan, "solution", setup.picture, emit)
-    plans = [attempt.fallback for attempt in attempts if attempt.fallback]
-    return execute(setup.problem, plans[-1], "fallback", setup.picture, emit) if plans else None
+    last = attempts[-1]
+    if last.solution and last.solution.plan:
+        return execute(setup.problem, last.solution.plan, "solution", last.round, setup.picture, emit)
+    usable = [(attempt.fallback, attempt.round) for attempt in attempts if attempt.fallback]
+    return (
+        execute(setup.problem, usable[-1][0], "fallback", usable[-1][1], setup.picture, emit)
+        if usable
+        else None
+    )

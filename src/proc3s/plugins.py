@@ -3,7 +3,7 @@
 import importlib.metadata
 import importlib.util
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -18,6 +18,7 @@ from proc3s.specs import Spec
 
 GROUP = "proc3s"
 LOOSE_FILE = "proc3s_plugins.py"
+_LOOSE = "__proc3s_loose__"
 
 
 @dataclass(frozen=True)
@@ -48,33 +49,38 @@ class PluginManager:
             source, version = (dist.name, dist.version) if dist else ("unknown", None)
             self._load(PluginStatus(entry_point.name, source, version), entry_point.load)
         loose = Path.cwd() / LOOSE_FILE
-        for path in [*([loose] if loose.is_file() else []), *files]:
+        found = [*([loose] if loose.is_file() else []), *files]
+        for path in {path.resolve(): path for path in found}.values():
             self._load(PluginStatus(path.stem, str(path)), partial(_import_file, path))
 
     def _load(self, status: PluginStatus, load: Callable[[], Any]) -> None:
         if status.name in self.statuses:
             other = self.statuses[status.name]
             status = PluginStatus(f"{status.name} ({status.source})", status.source, status.version)
-            self._fail(status, f"the name is taken by the plugin of {other.source}")
+            self._refuse(status, f"the name is taken by the plugin of {other.source}")
             return
         self.statuses[status.name] = status
         try:
             plugin = load()
             self._refuse_misspelled(plugin)
             self._manager.register(plugin, name=status.name)
-        except Exception as error:
-            self._fail(status, error)
+        except (Exception, SystemExit) as error:
+            self._refuse(status, error)
 
-    def _fail(self, status: PluginStatus, error: Exception | str) -> None:
-        """Record a failure; one in a file that the user named is the user's to see at once."""
+    def _fail(self, status: PluginStatus, error: BaseException | str) -> None:
+        """Record a failure; the plugin is not called again."""
         text = str(error) if isinstance(error, Proc3sError | str) else f"{type(error).__name__}: {error}"
         self.statuses[status.name] = PluginStatus(status.name, status.source, status.version, text)
         if self._manager.has_plugin(status.name):
             self._manager.unregister(name=status.name)
+
+    def _refuse(self, status: PluginStatus, error: BaseException | str) -> None:
+        """`_fail`, and a failure in a file that the user named is the user's to see at once."""
+        self._fail(status, error)
         if status.source in self._explicit:
             if isinstance(error, SpecError):
                 raise error
-            raise UsageError(f"plugin {status.source}: {text}")
+            raise UsageError(f"plugin {status.source}: {self.statuses[status.name].error}")
 
     def _refuse_misspelled(self, plugin: Any) -> None:
         known = {name for name in vars(hookspecs) if hasattr(getattr(hookspecs, name), "proc3s_spec")}
@@ -103,35 +109,44 @@ class PluginManager:
         try:
             register(lambda spec: found.append((name, _checked(spec, hook))))
         except Exception as error:
-            self._fail(self.statuses[name], error)
+            self._refuse(self.statuses[name], error)
             return []
         return found
 
     def resolve_llm(self, model: str) -> Spec | None:
         """The spec of the backend that a plugin offers for a model name."""
-        spec: Spec | None = self._manager.hook.resolve_llm(model=model)
-        return spec
+        return next((spec for spec in self._call("resolve_llm", model=model) if isinstance(spec, Spec)), None)
 
     def prompt_context(self, problem: Any, method: Any) -> dict[str, Any]:
         """What plugins add to the variables of the prompt."""
         added: dict[str, Any] = {}
-        for context in self._manager.hook.prompt_context(problem=problem, method=method):
+        for context in self._call("prompt_context", problem=problem, method=method):
             if isinstance(context, Mapping):
                 added.update(context)
         return added
 
     def on_event(self, event: Any) -> None:
-        """Tell every plugin; one that raises is recorded and not told again."""
-        for implementation in list(self._manager.hook.on_event.get_hookimpls()):
+        """Tell every plugin."""
+        for _ in self._call("on_event", event=event):
+            pass
+
+    def _call(self, hook: str, **arguments: Any) -> Iterator[Any]:
+        """What each plugin answers; one that raises is recorded and never called again."""
+        for implementation in reversed(getattr(self._manager.hook, hook).get_hookimpls()):
             try:
-                implementation.function(event)
+                taken = {name: arguments[name] for name in implementation.argnames}
+                answer = implementation.function(**taken)
             except Exception as error:
                 self._fail(self.statuses[implementation.plugin_name], error)
+            else:
+                yield answer
 
 
 def _checked(spec: Any, hook: str) -> Spec:
     if not isinstance(spec, Spec):
         raise TypeError(f"{hook} registers specs, not {type(spec).__name__}")
+    if not getattr(spec, "name", None):
+        raise TypeError(f"{hook} registers specs with a name, and this {type(spec).__name__} has none")
     return spec
 
 
@@ -144,6 +159,10 @@ def _import_file(path: Path) -> ModuleType:
         raise UsageError(f"{path} is not a Python file")
     # A loose file names its own functions as "<file stem>:name", so it is importable by its stem.
     module = importlib.util.module_from_spec(spec)
-    sys.modules[name] = sys.modules[path.stem] = module
+    sys.modules[name] = module
+    other = sys.modules.get(path.stem)
+    if (other is None and importlib.util.find_spec(path.stem) is None) or hasattr(other, _LOOSE):
+        sys.modules[path.stem] = module
+    setattr(module, _LOOSE, True)
     spec.loader.exec_module(module)
     return module

@@ -43,6 +43,9 @@ class Problem:
         # The cached state is an instance of a class that only this process has.
         return {name: value for name, value in self.__dict__.items() if name != "initial"}
 
+    def __hash__(self) -> int:
+        return hash((self.scene, self.program, self.goal, self.seed))
+
     def digest(self) -> str:
         """SHA-256 over everything that the verdict on a plan depends on."""
         spec = self.domain.spec.model_dump_json()

@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import Any
 
 import jinja2
-from jinja2.sandbox import SandboxedEnvironment
+from jinja2.sandbox import ImmutableSandboxedEnvironment
 
 from proc3s.errors import Issue, SpecError, UsageError, did_you_mean
-from proc3s.feedback import Diagnosis
+from proc3s.feedback import Diagnosis, Failure
 from proc3s.llms import Message, Role
 from proc3s.problem import Problem
 from proc3s.setup_code import setup_code
@@ -33,6 +33,16 @@ class Prompter:
     preset: PresetSpec
     folders: Sequence[Path]
     context: Mapping[str, Any] = field(default_factory=dict)
+
+    def rehearse(self, problem: Problem) -> None:
+        """Render every template once, so that a mistake in one shows before an LLM is asked."""
+        failure = Failure(kind="rehearsal", text="", step=0, skill="", line=1, source="", share=100)
+        error = failure.model_copy(update={"step": None})
+        self.system(problem)
+        self.task(problem)
+        tuple(self.examples(problem))
+        self.feedback(problem, Diagnosis(samples=1, failures=(failure, error)))
+        self.feedback(problem, Diagnosis(samples=0, program_errors=(error,)))
 
     def system(self, problem: Problem) -> Message:
         """What is the same for every task of the domain."""
@@ -56,38 +66,41 @@ class Prompter:
 
     def feedback(self, problem: Problem, diagnosis: Diagnosis) -> Message:
         """What the LLM is told about a round that failed."""
-        text = self._render("feedback.j2", problem, diagnosis=diagnosis)
+        text = self._render("feedback.j2", problem, diagnosis=diagnosis.model_dump())
         return Message(role="user", kind="feedback", text=text)
 
     def _render(self, name: str, problem: Problem, **variables: Any) -> str:
-        shared = {"domain": problem.domain.spec, "method": self.method, "preset": self.preset}
-        samplers = self.method.answer == "sketch"
         try:
             template = _environment(self.folders).get_template(name)
-            return template.render(
-                **self.context,
-                **shared,
-                setup_code=setup_code(problem.domain, samplers),
-                samplers=problem.domain.samplers if samplers else (),
-                **variables,
-            )
+            return template.render(**self.context, **self._shared(problem), **variables)
         except jinja2.TemplateNotFound as error:
-            raise UsageError(self._not_found(str(error))) from error
+            raise UsageError(self._not_found(str(error.name or name))) from error
         except jinja2.TemplateSyntaxError as error:
             where = f"{error.filename or name}:{error.lineno}"
             raise SpecError([Issue(where, "", str(error.message))]) from error
-        except (jinja2.TemplateError, TypeError) as error:
+        except Exception as error:  # a template may raise whatever its expressions raise
             raise SpecError([Issue(_template_line(error, name), "", str(error))]) from error
+
+    def _shared(self, problem: Problem) -> dict[str, Any]:
+        """Variables of every template: plain data, since templates come from anyone."""
+        with_samplers = self.method.answer == "sketch"
+        samplers = problem.domain.samplers if with_samplers else ()
+        return {
+            "domain": problem.domain.spec.model_dump(),
+            "method": self.method.model_dump(),
+            "preset": self.preset.model_dump(),
+            "samplers": [sampler.model_dump() for sampler in samplers],
+            "setup_code": setup_code(problem.domain, with_samplers),
+        }
 
     def _not_found(self, name: str) -> str:
         known = {str(p.relative_to(f)) for f in self.folders for p in f.rglob("*.j2")}
-        return (
-            f"there is no template {name!r} in {', '.join(map(str, self.folders))}{did_you_mean(name, known)}"
-        )
+        where = ", ".join(map(str, self.folders))
+        return f"there is no template {name!r} in {where}{did_you_mean(name, known)}"
 
 
-def _environment(folders: Sequence[Path]) -> SandboxedEnvironment:
-    environment = SandboxedEnvironment(
+def _environment(folders: Sequence[Path]) -> ImmutableSandboxedEnvironment:
+    environment = ImmutableSandboxedEnvironment(
         loader=jinja2.FileSystemLoader(folders),
         undefined=jinja2.StrictUndefined,
         trim_blocks=True,

@@ -82,12 +82,16 @@ class Registry:
         return Domain(merged, tuple(wanted.values()))
 
     def _attached(self, cls: type[S], domain: DomainSpec) -> dict[str, S]:
-        """Specs of a kind that name this domain, or that it uses."""
-        return {
+        """Specs of a kind that name this domain, or that it uses. Raises SpecError if it has its own."""
+        found = {
             name: spec
             for name, spec in self.all(cls).items()
             if {domain.name, "*"} & set(getattr(spec, "domains", ())) or name in domain.use
         }
+        if taken := sorted(found.keys() & {*domain.skills, *domain.constraints}):
+            message = f"a plugin brings {taken[0]!r}, and the domain has one of its own; rename one of them"
+            raise SpecError([Issue(f"domain {domain.name}", cls.kind, message)])
+        return found
 
     def _check_use(self, spec: DomainSpec, merged: DomainSpec, samplers: Mapping[str, Spec]) -> None:
         known = {*merged.skills, *merged.constraints, *samplers}

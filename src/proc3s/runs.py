@@ -1,5 +1,6 @@
 """Run folders: an append-only log of events beside the files a person opens first."""
 
+import contextlib
 import json
 import platform
 import re
@@ -34,6 +35,8 @@ class RunFolder:
         self.path = path
         try:
             path.mkdir(parents=True, exist_ok=True)
+            if _is_pending(path):
+                _clear(path)
             if any(path.iterdir()):
                 raise UsageError(f"the folder {path} is not empty; give another one with --out")
             self._log = (path / LOG).open("a", encoding="utf-8", errors="backslashreplace")
@@ -67,6 +70,21 @@ class RunFolder:
     def close(self) -> None:
         """Close the log."""
         self._log.close()
+
+
+def _is_pending(path: Path) -> bool:
+    """Whether the run in a folder ended while it waited for a person's answer."""
+    if not (path / LOG).is_file():
+        return False
+    ended = events_of(path, "run_ended")
+    return bool(ended) and str(ended[0]["summary"].get("error")).startswith("pending")
+
+
+def _clear(path: Path) -> None:
+    """Make room for the run that goes on where a pending one stopped; it writes the same files again."""
+    for pattern in (LOG, "summary.json", "prompt-*.md", "answer-*.md", "program-*.py"):
+        for file in path.glob(pattern):
+            file.unlink()
 
 
 def _pretty(data: Any) -> str:
@@ -105,15 +123,22 @@ def read_events(run: Path) -> list[dict[str, Any]]:
     log = run / LOG
     if not log.is_file():
         raise UsageError(f"{run} is no run folder (it has no {LOG})")
-    lines = log.read_text(encoding="utf-8").splitlines()
-    events = []
-    for number, line in enumerate(lines, start=1):
-        try:
-            events.append(json.loads(line))
-        except json.JSONDecodeError as error:
-            if number < len(lines):
-                raise UsageError(f"{log}:{number}: not valid JSON: {error.msg}") from error
+    # Bytes, and only "\n": text may hold other line ends, and a kill may cut a character in two.
+    *lines, last = log.read_bytes().split(b"\n")
+    events = [_parse(line, f"{log}:{number}") for number, line in enumerate(lines, start=1)]
+    with contextlib.suppress(UsageError):
+        events += [_parse(last, str(log))] if last else []
     return events
+
+
+def _parse(line: bytes, where: str) -> dict[str, Any]:
+    try:
+        event = json.loads(line)
+    except ValueError as error:
+        raise UsageError(f"{where}: not valid JSON: {error}") from error
+    if not isinstance(event, dict) or "event" not in event:
+        raise UsageError(f"{where}: not an event of a run")
+    return event
 
 
 def events_of(run: Path, name: str) -> list[dict[str, Any]]:

@@ -40,7 +40,7 @@ class ContinuousSampler:
 
     def decode(self, u: FloatArray) -> FloatArray:
         """Shape (n, 1) to (n, 1)."""
-        return self.min + (self.max - self.min) * u
+        return np.clip(self.min * (1 - u) + self.max * u, self.min, self.max)
 
 
 @dataclass(frozen=True)

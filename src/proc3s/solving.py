@@ -6,6 +6,7 @@ from typing import Protocol
 
 import numpy as np
 
+from proc3s.errors import Interrupted, Proc3sError
 from proc3s.evaluation import Evaluator
 from proc3s.problem import Trial
 from proc3s.samplers import Space
@@ -27,10 +28,14 @@ class Solver(Protocol):
 
 @dataclass(frozen=True)
 class Search:
-    """What a search found: every trial in order, the accepted one, or why the program was stopped."""
+    """What a search found: every trial in order, the accepted one, or why it was stopped.
+
+    `halted` is the program's own fault, `broken_off` is not.
+    """
 
     trials: tuple[Trial, ...]
     halted: SketchError | None = None
+    broken_off: Proc3sError | None = None
 
     @property
     def solution(self) -> Trial | None:
@@ -55,17 +60,17 @@ def solve(
         u = np.empty((1, 0)) if space.dim == 0 else solver.ask(limit - len(trials))
         if not len(u):
             break
-        batch, halted = _evaluate(evaluator, u)
-        solver.tell(batch)
-        report(batch)
-        trials += batch
-        if halted or (batch and batch[-1].accepted):
-            return Search(tuple(trials), halted)
+        done = _evaluate(evaluator, u)
+        solver.tell(done.trials)
+        report(done.trials)
+        trials += done.trials
+        if done.halted or done.broken_off or done.solution:
+            return Search(tuple(trials), done.halted, done.broken_off)
     return Search(tuple(trials))
 
 
-def _evaluate(evaluator: Evaluator, u: FloatArray) -> tuple[list[Trial], SketchError | None]:
-    """Trials up to the first accepted one, and the error if the program was stopped."""
+def _evaluate(evaluator: Evaluator, u: FloatArray) -> Search:
+    """Trials up to the first accepted one, and what stopped them if something did."""
     batch: list[Trial] = []
     try:
         for trial in evaluator.stream(u):
@@ -73,5 +78,9 @@ def _evaluate(evaluator: Evaluator, u: FloatArray) -> tuple[list[Trial], SketchE
             if trial.accepted:
                 break
     except SketchError as error:
-        return batch, error
-    return batch, None
+        return Search(tuple(batch), halted=error)
+    except Proc3sError as error:
+        return Search(tuple(batch), broken_off=error)
+    except KeyboardInterrupt:
+        return Search(tuple(batch), broken_off=Interrupted("interrupted"))
+    return Search(tuple(batch))

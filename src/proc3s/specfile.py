@@ -11,11 +11,13 @@ from pydantic import BaseModel, ValidationError
 
 from proc3s.errors import Issue, SpecError, did_you_mean
 from proc3s.specs import DomainSpec, Spec
-from proc3s.state import split_type
+from proc3s.state import SCALARS, split_type
 
 Loc: TypeAlias = tuple[str | int, ...]
 S = TypeVar("S", bound=Spec)
 M = TypeVar("M", bound=BaseModel)
+
+_PLAIN = "plain"
 
 # The scalars of YAML 1.2: `no` is a word, `1e-3` a number.
 _SCALARS = (
@@ -33,6 +35,15 @@ def scalar(text: str) -> Any:
     return next((convert(text) for pattern, convert in _SCALARS if pattern.fullmatch(text)), text)
 
 
+class _Loader(yaml.SafeLoader):
+    """Leaves plain words alone; only tags that the file itself writes are resolved."""
+
+    def resolve(self, kind: Any, value: Any, implicit: Any) -> Any:
+        if kind is yaml.ScalarNode and implicit[0]:
+            return _PLAIN
+        return super().resolve(kind, value, implicit)  # type: ignore[no-untyped-call]
+
+
 class _Document:
     """Plain data of a YAML file, with the line of every key and the mistakes found while reading."""
 
@@ -42,7 +53,7 @@ class _Document:
         self.issues: list[tuple[Loc, int, str]] = []
         self.data: Any = None
         try:
-            node = yaml.compose(path.read_text(encoding="utf-8"), Loader=yaml.SafeLoader)
+            node = yaml.compose(path.read_text(encoding="utf-8"), Loader=_Loader)
         except yaml.MarkedYAMLError as error:
             mark = error.problem_mark or error.context_mark
             self.issues.append(((), mark.line + 1 if mark else 1, f"not valid YAML: {error.problem}"))
@@ -53,16 +64,20 @@ class _Document:
         else:
             self.data = self._plain(node, ()) if node else {}
 
-    def _plain(self, node: yaml.Node, loc: Loc) -> Any:
+    def _plain(self, node: yaml.Node, loc: Loc, inside: tuple[yaml.Node, ...] = ()) -> Any:
         self.lines.setdefault(loc, node.start_mark.line + 1)
+        if node in inside:
+            self.issues.append((loc, self.lines[loc], "an alias that contains itself"))
+            return None
+        inside = (*inside, node)
         if isinstance(node, yaml.MappingNode):
-            return self._mapping(node, loc)
+            return self._mapping(node, loc, inside)
         if isinstance(node, yaml.SequenceNode):
-            return [self._plain(child, (*loc, i)) for i, child in enumerate(node.value)]
+            return [self._plain(child, (*loc, i), inside) for i, child in enumerate(node.value)]
         assert isinstance(node, yaml.ScalarNode)
-        return node.value if node.style else scalar(node.value)
+        return scalar(node.value) if node.tag == _PLAIN else node.value
 
-    def _mapping(self, node: yaml.MappingNode, loc: Loc) -> dict[str, Any]:
+    def _mapping(self, node: yaml.MappingNode, loc: Loc, inside: tuple[yaml.Node, ...]) -> dict[str, Any]:
         result: dict[str, Any] = {}
         for key_node, value_node in node.value:
             key, line = str(key_node.value), key_node.start_mark.line + 1
@@ -73,7 +88,7 @@ class _Document:
                 )
                 continue
             self.lines[(*loc, key)] = line
-            result[key] = self._plain(value_node, (*loc, key))
+            result[key] = self._plain(value_node, (*loc, key), inside)
         return result
 
     def line(self, loc: Loc) -> int:
@@ -81,16 +96,11 @@ class _Document:
         return next(self.lines[loc[:n]] for n in range(len(loc), -1, -1) if loc[:n] in self.lines)
 
 
-def load_spec(path: Path, model: type[S], extra: Mapping[str, Any] | None = None) -> S:
-    """Read a YAML file into a spec; `extra` adds fields that do not stand in the file.
-
-    Raises SpecError with all mistakes, in the order of their lines.
-    """
+def load_spec(path: Path, model: type[S]) -> S:
+    """Read a YAML file into a spec. Raises SpecError with all mistakes, in the order of their lines."""
     document = _Document(path)
     spec, found = None, list(document.issues)
     if document.data is not None:
-        if isinstance(document.data, dict) and extra:
-            document.data.update(extra)
         try:
             spec = model.model_validate(document.data)
         except ValidationError as error:
@@ -106,7 +116,7 @@ def load_spec(path: Path, model: type[S], extra: Mapping[str, Any] | None = None
 def load_domain(path: Path | str) -> DomainSpec:
     """The domain that a `domain.yaml` describes. Raises SpecError with all mistakes at once."""
     path = Path(path)
-    return load_spec(path, DomainSpec, extra={"folder": path.parent})
+    return load_spec(path, DomainSpec).in_folder(path.parent)
 
 
 def validate(model: type[M], data: Mapping[str, Any], where: str) -> M:
@@ -145,28 +155,58 @@ def _keys(model: Any, loc: Loc) -> list[str]:
 
 def _references(data: Mapping[str, Any]) -> Iterator[tuple[Loc, str]]:
     """Names in a domain file that point nowhere; works on data that is no valid spec, as far as it goes."""
-    types = data.get("types") if isinstance(data.get("types"), dict) else {}
-    assert isinstance(types, dict)
-    if isinstance(state := data.get("state"), str) and types and state not in types:
+    types = {name: _field_types(spec) for name, spec in _mapping_of(data, "types").items()}
+    state, objects = data.get("state"), data.get("objects")
+    if isinstance(state, str) and types and state not in types:
         yield ("state",), f"there is no type {state!r}{did_you_mean(state, types)}"
-    for name, spec in types.items():
-        fields = spec.get("fields") if isinstance(spec, dict) else None
-        for field, field_spec in fields.items() if isinstance(fields, dict) else ():
-            text = field_spec.get("type") if isinstance(field_spec, dict) else None
-            known = {*types, "float", "int", "str", "bool"}
-            if isinstance(text, str) and split_type(text)[1] not in known:
-                yield (
-                    ("types", name, "fields", field, "type"),
-                    f"there is no type {split_type(text)[1]!r}{did_you_mean(split_type(text)[1], known)}",
-                )
+    elif isinstance(state, str) and isinstance(objects, str) and types and objects not in types[state]:
+        yield ("objects",), f"{state} has no field {objects!r}{did_you_mean(objects, types[state])}"
+    for name, fields in types.items():
+        yield from _field_references(name, fields, types)
     for loc, target in _targets(data, ()):
         module = target.partition(":")[0]
-        try:
-            found = importlib.util.find_spec(module)
-        except (ImportError, ValueError):
-            found = None
-        if found is None:
+        if not _importable(module):
             yield loc, f"there is no module {module!r}"
+
+
+def _field_references(
+    name: str, fields: Mapping[str, str], types: Mapping[str, Mapping[str, str]]
+) -> Iterator[tuple[Loc, str]]:
+    for field, text in fields.items():
+        inner, loc = split_type(text)[1], ("types", name, "fields", field, "type")
+        if inner not in {*types, *SCALARS}:
+            yield loc, f"there is no type {inner!r}{did_you_mean(inner, {*types, *SCALARS})}"
+        elif name in _contained(inner, types):
+            yield loc, f"{name} contains itself"
+
+
+def _contained(name: str, types: Mapping[str, Mapping[str, str]]) -> set[str]:
+    """A type and all that its fields are made of."""
+    found: set[str] = set()
+    waiting = [name]
+    while waiting:
+        if (name := waiting.pop()) not in found:
+            found.add(name)
+            waiting += [split_type(text)[1] for text in types.get(name, {}).values()]
+    return found
+
+
+def _field_types(spec: Any) -> dict[str, str]:
+    fields = _mapping_of(spec, "fields")
+    found = {name: field.get("type") for name, field in fields.items() if isinstance(field, dict)}
+    return {name: text for name, text in found.items() if isinstance(text, str)}
+
+
+def _mapping_of(data: Any, key: str) -> dict[str, Any]:
+    value = data.get(key) if isinstance(data, Mapping) else None
+    return value if isinstance(value, dict) else {}
+
+
+def _importable(module: str) -> bool:
+    try:
+        return importlib.util.find_spec(module) is not None
+    except Exception:  # importing the package around it may raise anything
+        return False
 
 
 def _targets(data: Any, loc: Loc) -> Iterator[tuple[Loc, str]]:

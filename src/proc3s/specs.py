@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, PrivateAttr, model_validator
 
 from proc3s.errors import Issue, SpecError, did_you_mean
 
@@ -36,8 +36,9 @@ class Target(Spec):
         module_name, _, name = self.target.partition(":")
         try:
             module = importlib.import_module(module_name)
-        except ImportError as error:
-            raise SpecError([Issue(self.target, "target", f"cannot be imported: {error}")]) from error
+        except Exception as error:  # a module may raise anything while it is imported
+            text = f"cannot be imported: {type(error).__name__}: {error}"
+            raise SpecError([Issue(self.target, "target", text)]) from error
         if not hasattr(module, name):
             public = [n for n in vars(module) if not n.startswith("_")]
             message = f"{module_name} has no {name!r}{did_you_mean(name, public)}"
@@ -122,7 +123,8 @@ class SkillSpec(Target):
     """A skill: `target(world, *args) -> telemetry` moves the world by one ground action."""
 
     kind: ClassVar[str] = "skills"
-    name: Identifier
+    name: Identifier = ""
+    """Its key, where it stands in a mapping; a plugin gives it."""
     summary: str
     """One sentence for the LLM: what the skill does with its parameters."""
     params: dict[Identifier, ParamSpec]
@@ -150,7 +152,8 @@ class ConstraintSpec(Target):
     """A constraint: `target(transition) -> margin`, negative when violated, None where it does not apply."""
 
     kind: ClassVar[str] = "constraints"
-    name: Identifier
+    name: Identifier = ""
+    """Its key, where it stands in a mapping; a plugin gives it."""
     says: str
     """The sentence of a violation; `{…}` takes details that the margin carries."""
     tolerance: float = Field(0.0, ge=0)
@@ -163,7 +166,8 @@ class TaskSpec(Spec):
     """A task: an instruction, a scene, and judges that must all be satisfied."""
 
     kind: ClassVar[str] = "tasks"
-    name: Identifier
+    name: Identifier = ""
+    """Its key, where it stands in a mapping; a plugin gives it."""
     instruction: str | None = None
     """What to do, in plain language; without it the task needs `--goal`."""
     initial: Target
@@ -219,8 +223,18 @@ class DomainSpec(Spec):
     """Samples per problem by preset."""
     examples: Annotated[dict[Identifier, ExampleSpec], Named] = Field(default_factory=dict)
     """Worked examples, none of them a task."""
-    folder: Path | None = Field(default=None, exclude=True)
-    """Where `examples/`, `answers/` and `templates/` lie; the folder of the file."""
+    _folder: Path | None = PrivateAttr(default=None)
+
+    @property
+    def folder(self) -> Path | None:
+        """Where `examples/`, `answers/` and `templates/` lie: the folder of the file."""
+        return self._folder
+
+    def in_folder(self, folder: Path) -> "DomainSpec":
+        """The same spec, read from a file in `folder`."""
+        copy = self.model_copy()
+        copy._folder = folder
+        return copy
 
 
 class MethodSpec(Spec):

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import TypeAdapter
+from pydantic import ConfigDict, TypeAdapter
 
 if TYPE_CHECKING:
     from proc3s.specs import FieldSpec, TypeSpec
@@ -133,6 +133,10 @@ def _decode(param: Parameter, columns: Iterator[float]) -> Value:
     return vector if param.type == "point" else Pose(*vector)
 
 
+SCALARS: Mapping[str, type] = {"float": float, "int": int, "str": str, "bool": bool}
+"""The types of fields that are no types of the domain."""
+
+
 @dataclass(frozen=True)
 class State:
     """Base of the frozen state classes that are made from the types of a `domain.yaml`."""
@@ -161,11 +165,13 @@ class StateModel:
 
     def _make(self, name: str, fields: "Mapping[str, FieldSpec]") -> type[State]:
         members = [(n, self._annotation(f.type), _default(f)) for n, f in fields.items()]
-        return dataclasses.make_dataclass(name, members, bases=(State,), frozen=True)
+        made = dataclasses.make_dataclass(name, members, bases=(State,), frozen=True)
+        made.__pydantic_config__ = ConfigDict(extra="forbid", allow_inf_nan=False)  # type: ignore[attr-defined]
+        return made
 
     def _annotation(self, text: str) -> Any:
         container, inner = split_type(text)
-        scalar: Any = {"float": float, "int": int, "str": str, "bool": bool}.get(inner) or self.types[inner]
+        scalar: Any = SCALARS.get(inner) or self.types[inner]
         return {"": scalar, "list": tuple[scalar, ...], "dict": dict[str, scalar]}[container]
 
 

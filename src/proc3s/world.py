@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
+from proc3s.errors import blame
 from proc3s.state import Action, Plan, State
 
 if TYPE_CHECKING:
@@ -54,7 +55,8 @@ class World(Generic[T]):
         """Carry out one ground action from the snapshot of the step before."""
         self.load(self._snapshot)
         before = self.observe()
-        telemetry = self.domain.skill(action.skill)(self, *action.args)
+        with blame(f"skill {action.skill}"):
+            telemetry = self.domain.skill(action.skill)(self, *action.args)
         self._snapshot = self.save()
         return Transition(before, action, self.observe(), telemetry)
 

@@ -44,7 +44,9 @@ def test_none_is_does_not_apply(tmp_path):
     [("says_true", 1.0), ("says_false", -1.0), ("thousandth", -0.125)],
 )
 def test_numpy_numbers_count_as_numbers(tmp_path, target, margin):
-    assert trial_of(with_constraint(tmp_path, target=f"toy_world:{target}"), SLIDE).margins == ({"mine": margin},)
+    assert trial_of(with_constraint(tmp_path, target=f"toy_world:{target}"), SLIDE).margins == (
+        {"mine": margin},
+    )
 
 
 @pytest.mark.parametrize("value", ["yes", "[1]", "{a: 1}"])

@@ -55,7 +55,12 @@ ATTACHED = ({"slide", "tap"}, {"on_wire", "quiet"}, {"ContinuousSampler", "Coin"
 
 @pytest.mark.parametrize(
     ("domains", "expected"),
-    [("", PLAIN), (', domains=("toy",)', ATTACHED), (', domains=("*",)', ATTACHED), (', domains=("wood",)', PLAIN)],
+    [
+        ("", PLAIN),
+        (', domains=("toy",)', ATTACHED),
+        (', domains=("*",)', ATTACHED),
+        (', domains=("wood",)', PLAIN),
+    ],
 )
 def test_parts_attach_to_the_domains_they_name(tmp_path, plugin, domains, expected):
     toy_world.write(tmp_path)

@@ -68,7 +68,7 @@ def test_seeds_decide(name):
 @NAMES
 def test_options_are_checked(name):
     for bad in ({"first": 0}, {"largest": -1}, {"firts": 3}):
-        with pytest.raises(ValueError, match="first|largest|firts"):
+        with pytest.raises(ValueError, match=r"first|largest|firts"):
             solver(name, **bad)
 
 
@@ -96,7 +96,9 @@ def test_the_deviation_of_gaussian_grows_linearly_to_one():
     expected = np.linspace(0, 1, budget)
     for k in range(10):
         part = slice(k * budget // 10, (k + 1) * budget // 10)
-        assert np.sqrt((z[part] ** 2).mean()) == pytest.approx(np.sqrt((expected[part] ** 2).mean()), rel=0.08)
+        assert np.sqrt((z[part] ** 2).mean()) == pytest.approx(
+            np.sqrt((expected[part] ** 2).mean()), rel=0.08
+        )
 
 
 def test_gaussian_gives_up_when_its_budget_is_spent():

@@ -1,5 +1,5 @@
-import toy_world
 import pytest
+import toy_world
 
 from proc3s import DomainSpec, SpecError, load_domain
 from proc3s.specfile import scalar
@@ -124,7 +124,17 @@ def test_a_missing_key_names_the_line_of_what_lacks_it(tmp_path):
 
 @pytest.mark.parametrize(
     "text",
-    ["a: [1, 2", "a: 'open", "\t- x", "a: b: c", "? {a: 1}\n: 2\n- 3", "a: *nothing", "- just\n- a list", "5", ""],
+    [
+        "a: [1, 2",
+        "a: 'open",
+        "\t- x",
+        "a: b: c",
+        "? {a: 1}\n: 2\n- 3",
+        "a: *nothing",
+        "- just\n- a list",
+        "5",
+        "",
+    ],
 )
 def test_what_is_no_domain_at_all_is_said_in_lines(tmp_path, text):
     for line, rest in lines_of(mistakes(tmp_path, text)):
@@ -166,5 +176,7 @@ def test_a_field_of_objects_that_the_state_lacks_is_a_mistake_of_the_file(tmp_pa
 
 
 def test_types_that_contain_each_other_are_a_mistake_of_the_file(tmp_path):
-    text = toy_world.DOMAIN.replace("      name: {type: str}", "      name: {type: str}\n      on: {type: Bead}")
+    text = toy_world.DOMAIN.replace(
+        "      name: {type: str}", "      name: {type: str}\n      on: {type: Bead}"
+    )
     mistakes(tmp_path, text)

@@ -73,9 +73,7 @@ class Wire(World):
 
 def slide(world, bead, by):
     state = world.observe()
-    beads = tuple(
-        dataclasses.replace(b, place=b.place + by) if b.name == bead else b for b in state.beads
-    )
+    beads = tuple(dataclasses.replace(b, place=b.place + by) if b.name == bead else b for b in state.beads)
     world.load(dataclasses.replace(state, beads=beads, moves=state.moves + 1))
     return Slid(bead, next(b.place for b in beads if b.name == bead))
 

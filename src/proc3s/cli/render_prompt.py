@@ -43,8 +43,7 @@ def render_prompt(
     method_options: a.MethodOptions = None,
 ) -> None:
     """Print exactly what the LLM would be asked. Calls nobody."""
-    from proc3s.cli import renderings
-    from proc3s.cli.session import run_options
+    from proc3s.cli import approval, renderings
     from proc3s.errors import UsageError
     from proc3s.registry import open_registry
 
@@ -60,11 +59,11 @@ def render_prompt(
     }
     registry = open_registry(plugin or [])
     if check is not None:
-        raise typer.Exit(renderings.check(registry, check, task, update, given))
+        raise typer.Exit(approval.check(registry, check, task, update, given))
     if update:
         raise UsageError("--update goes with --check")
     if task is None:
         raise UsageError("name a task, e.g. drawing/star")
-    options = run_options(task=task, **given)
+    options = renderings.options_of(task, given, from_)
     messages = renderings.render(registry, options, round_, from_)
-    renderings.show(messages, format_.value, diff)
+    renderings.show(messages, format_.value, diff, round_)

@@ -1,8 +1,8 @@
-"""Renderings of prompts: of one task, of a later round, compared with earlier or approved ones."""
+"""Renderings of prompts: of one task, of a later round, compared with earlier ones."""
 
 import difflib
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -15,8 +15,7 @@ from proc3s.feedback import Diagnosis
 from proc3s.llms import Message, digest, estimate_tokens
 from proc3s.options import RunOptions, make_problem, make_prompter
 from proc3s.registry import Registry
-from proc3s.runs import LOG, events_of, markdown
-from proc3s.specs import DomainSpec, MethodSpec
+from proc3s.runs import LOG, events_of, markdown, started
 
 
 def render(registry: Registry, options: RunOptions, round_: int, run: Path | None) -> tuple[Message, ...]:
@@ -26,6 +25,18 @@ def render(registry: Registry, options: RunOptions, round_: int, run: Path | Non
     problem = make_problem(registry, options)
     history = _history(run, round_) if run else []
     return conversation(make_prompter(registry, options, problem), problem, history)
+
+
+def options_of(task: str, given: dict[str, Any], run: Path | None) -> RunOptions:
+    """Options of a rendering: those of the run it is from, changed by what the command line gives."""
+    if run is None:
+        return run_options(task=task, **given)
+    logged = RunOptions.model_validate(started(run)["options"])
+    if logged.task != task:
+        raise UsageError(f"{run} is a run of {logged.task}, not of {task}")
+    own = run_options(task=task, **given)
+    changed = {name for name, value in given.items() if value is not None}
+    return logged.model_copy(update={name: getattr(own, name) for name in changed})
 
 
 def _history(run: Path, rounds: int) -> list[Exchange]:
@@ -39,11 +50,11 @@ def _history(run: Path, rounds: int) -> list[Exchange]:
     return [Exchange(answers[n], Diagnosis.model_validate(ended[n])) for n in range(rounds)]
 
 
-def show(messages: tuple[Message, ...], format_: str, diff: Path | None) -> None:
+def show(messages: tuple[Message, ...], format_: str, diff: Path | None, round_: int) -> None:
     """Print a rendering, or how it differs; its SHA-256 and size go to stderr."""
     text = _formatted(messages, format_)
     if diff is not None:
-        typer.echo("".join(_diff(_earlier(diff, format_), text, str(diff), "now")), nl=False)
+        typer.echo("".join(unified_diff(_earlier(diff, format_, round_), text, str(diff), "now")), nl=False)
     else:
         typer.echo(text, nl=False)
     typer.echo(f"sha256 {digest(messages)}  about {estimate_tokens(messages)} tokens", err=True)
@@ -57,87 +68,20 @@ def _formatted(messages: tuple[Message, ...], format_: str) -> str:
     return "\n".join(f"[{m.role}: {m.kind}]\n{m.text.rstrip()}\n" for m in messages)
 
 
-def _earlier(path: Path, format_: str) -> str:
-    """The text of an earlier rendering: a file, or the first prompt of a run folder."""
+def _earlier(path: Path, format_: str, round_: int) -> str:
+    """The text of an earlier rendering: a file, or the prompt of a round in a run folder."""
     if (path / LOG).is_file():
-        prompts = events_of(path, "prompt_rendered")
+        prompts = [event for event in events_of(path, "prompt_rendered") if event["round"] == round_]
         if not prompts:
-            raise UsageError(f"{path} has no prompt")
+            raise UsageError(f"{path} has no prompt of round {round_}")
         return _formatted(tuple(Message.model_validate(m) for m in prompts[0]["messages"]), format_)
     if not path.is_file():
         raise UsageError(f"there is no rendering or run {path}")
     return path.read_text(encoding="utf-8")
 
 
-def _diff(old: str, new: str, old_name: str, new_name: str) -> Iterator[str]:
+def unified_diff(old: str, new: str, old_name: str, new_name: str) -> Iterator[str]:
+    """The lines of a unified diff of two texts."""
     return difflib.unified_diff(
         old.splitlines(keepends=True), new.splitlines(keepends=True), old_name, new_name, n=2
     )
-
-
-def check(registry: Registry, folder: Path, within: str | None, update: bool, given: dict[str, Any]) -> int:
-    """Compare all renderings with the approved files; the number is the exit code.
-
-    One file for every task and prompt template: `domain/task.TEMPLATE.md`.
-    """
-    rendered = dict(_all_renderings(registry, within, given))
-    stale = [name for name, text in rendered.items() if _read(folder / name) != text]
-    for name in stale:
-        path = folder / name
-        if update:
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(rendered[name], encoding="utf-8")
-        else:
-            typer.echo(
-                "".join(_diff(_read(path) or "", rendered[name], f"approved/{name}", f"now/{name}")), nl=False
-            )
-    orphans = _orphans(folder, rendered) if within is None else []
-    for path in orphans:
-        if update:
-            path.unlink()
-        else:
-            typer.echo(f"approved, but no longer rendered: {path}")
-    changed = len(stale) + len(orphans)
-    typer.echo(f"{len(rendered)} renderings, {_verdict(changed, update)}", err=True)
-    return 2 if changed and not update else 0
-
-
-def _verdict(changed: int, update: bool) -> str:
-    if not changed:
-        return "all as approved"
-    return f"{changed} approved" if update else f"{changed} not as approved; approve them with --update"
-
-
-def _read(path: Path) -> str | None:
-    return path.read_text(encoding="utf-8") if path.is_file() else None
-
-
-def _orphans(folder: Path, rendered: dict[str, str]) -> Sequence[Path]:
-    return [path for path in sorted(folder.rglob("*.md")) if str(path.relative_to(folder)) not in rendered]
-
-
-def _all_renderings(
-    registry: Registry, within: str | None, given: dict[str, Any]
-) -> Iterator[tuple[str, str]]:
-    """Every task of the domain or task `within`, for the first method of every template."""
-    if within is not None and "/" in within:
-        registry.task(within)
-    elif within is not None:
-        registry.get(DomainSpec, within)
-    methods = {m.template: m.name for m in reversed(registry.all(MethodSpec).values())}
-    if given["method"]:
-        chosen = registry.get(MethodSpec, given["method"])
-        methods = {chosen.template: chosen.name}
-    for domain in registry.all(DomainSpec).values():
-        for task in domain.tasks.values():
-            name = f"{domain.name}/{task.name}"
-            if within not in (None, domain.name, name):
-                continue
-            for template, method in sorted(methods.items()):
-                own = {
-                    **given,
-                    "method": method,
-                    "goal": given["goal"] or task.instruction or "(your instruction)",
-                }
-                messages = render(registry, run_options(task=name, **own), 0, None)
-                yield f"{name}.{template}.md", markdown(messages)

@@ -33,6 +33,10 @@ def run_options(**given: Any) -> RunOptions:
     values = {name: value for name, value in given.items() if value is not None}
     for name in ("domain_options", "method_options", "solver_options", "llm_options"):
         values[name] = key_values(values.get(name, []))
+    if "plugins" in values:
+        values["plugins"] = [path.resolve() for path in values["plugins"]]
+    if "template_dir" in values:
+        values["template_dir"] = values["template_dir"].resolve()
     return validate(RunOptions, values, "options")
 
 
@@ -88,7 +92,8 @@ def replay_run(run: Path, changes: dict[str, Any], out: Path | None, as_json: bo
         if not programs:
             raise UsageError(f"{run} has no program to replay")
         sources = {e["round"]: e["completion"]["source"] for e in events_of(run, "answer_received")}
-        last = programs[-1]
+        executed = [event["round"] for event in events_of(run, "plan_executed")]
+        last = next((p for p in programs if p["round"] in executed), programs[-1])
         origin = sources.get(last["round"], "none")
         return Given(last["source"], "recorded" if origin == "live" else origin, last["round"])
 
@@ -104,6 +109,7 @@ def _run(options: RunOptions, out: Path | None, as_json: bool, given: Given | No
     setup = make_setup(registry, options, problem, path / "plan.png")
     if given is None:
         llm, prompter = make_llm(registry, options), make_prompter(registry, options, problem)
+        prompter.rehearse(problem)
         ask = partial(ask_llm, llm, prompter, problem)
     folder = RunFolder(path)
     console = Console(options, quiet=as_json)
@@ -126,6 +132,8 @@ def _run(options: RunOptions, out: Path | None, as_json: bool, given: Given | No
         folder.close()
         setup.executor.close()
     console.result(summary)
+    for status in registry.plugins.failures:
+        typer.echo(f"proc3s: plugin {status.name} ({status.source}) failed: {status.error}", err=True)
     return summary, exit_code(outcome, summary)
 
 

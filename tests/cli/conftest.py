@@ -1,0 +1,49 @@
+"""Answers that a language model might give."""
+
+import pytest
+
+STAR = """
+Some words.
+
+```python
+def gen_plan(initial, x, y, radius):
+    def corner(k):
+        angle = math.pi / 2 + 4 * math.pi * k / 5
+        return [x + radius * math.cos(angle), y + radius * math.sin(angle)]
+    return [Action("draw_line", corner(k) + corner(k + 1)) for k in range(5)]
+
+def gen_domain(initial):
+    where = ContinuousSampler(10, 90)
+    return {"x": where, "y": where, "radius": ContinuousSampler(8, 20)}
+```
+"""
+OUTSIDE = """
+```python
+def gen_plan(initial, x):
+    return [
+        Action("draw_line", [50, 1, 51, 1]),
+        Action("draw_line", [-1, 1, x, 1]),
+    ]
+
+def gen_domain(initial):
+    return {"x": ContinuousSampler(0, 1)}
+```
+"""
+LITERAL = """
+```python
+gen_plan = [Action("draw_line", [1, 1, 2, 1]), Action("draw_line", [LEFT, 1, 3, 1])]
+```
+"""
+
+
+def literal(left):
+    """A plan in full whose second line starts at `left`."""
+    return LITERAL.replace("LEFT", str(left))
+
+
+@pytest.fixture
+def answers():
+    """STAR is solved, OUTSIDE never is, literal(-1) violates and literal(1) does not."""
+    from types import SimpleNamespace
+
+    return SimpleNamespace(star=STAR, outside=OUTSIDE, literal=literal)
