@@ -2,8 +2,9 @@
 
 import os
 from typing import Any
+from urllib.parse import urlsplit
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, field_validator
 
 from proc3s import Completion, LLMError, Request
 
@@ -17,6 +18,13 @@ class Options(BaseModel):
     temperature: float | None = Field(0.0, description="sampling temperature")
     max_tokens: int | None = Field(None, ge=1, description="longest answer")
     timeout: float = Field(120.0, gt=0, description="seconds to wait for the answer")
+
+    @field_validator("api_base")
+    @classmethod
+    def _no_password(cls, address: str | None) -> str | None:
+        if address and urlsplit(address).username:
+            raise ValueError("an address is logged, so it must not hold a user name or password")
+        return address
 
 
 class LiteLLM:

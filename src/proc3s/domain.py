@@ -1,13 +1,13 @@
 """A domain at work: its spec with what plugins attach, and its targets, imported when first used."""
 
 import inspect
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, get_type_hints
 
 import numpy as np
-from pydantic import ValidationError
+from pydantic import TypeAdapter, ValidationError
 
 from proc3s.errors import Issue, SpecError, UsageError, blame, did_you_mean
 from proc3s.specs import DomainSpec, ParamSpec, SamplerSpec, Target, TaskSpec
@@ -77,14 +77,10 @@ class Domain:
         """
         rng = np.random.default_rng(seed)
         make = task.initial.load()
-        known = list(inspect.signature(make).parameters)[1:]
-        for name in options or {}:
-            if name not in known:
-                hint = did_you_mean(name, known)
-                raise UsageError(f"the scene of {task.name} has no option {name!r}{hint}")
+        args = {**task.initial.args, **_scene_options(task.name, make, options or {})}
         with blame(f"scene of {task.name}"):
             try:
-                data = make(rng, **{**task.initial.args, **(options or {})})
+                data = make(rng, **args)
             except ValueError as error:
                 raise UsageError(f"the scene of {task.name}: {error}") from error
         try:
@@ -107,6 +103,24 @@ class Domain:
             Signature(s.name, tuple(_parameter(n, p, names) for n, p in s.params.items()))
             for s in self.spec.skills.values()
         )
+
+
+def _scene_options(task: str, make: Callable[..., Any], options: Mapping[str, Any]) -> dict[str, Any]:
+    """Options as the types that the scene generator declares. Raises UsageError."""
+    known = list(inspect.signature(make).parameters)[1:]
+    hints = get_type_hints(make)
+    checked = {}
+    for name, value in options.items():
+        if name not in known:
+            hint = did_you_mean(name, known)
+            raise UsageError(f"the scene of {task} has no option {name!r}{hint}")
+        try:
+            checked[name] = TypeAdapter(hints.get(name, Any)).validate_python(value)
+        except ValidationError as error:
+            raise UsageError(
+                f"the scene of {task}: {name}: {error.errors()[0]['msg']}, not {value!r}"
+            ) from error
+    return checked
 
 
 def _parameter(name: str, spec: ParamSpec, objects: tuple[str, ...]) -> Parameter:

@@ -3,7 +3,7 @@
 import dataclasses
 import functools
 from collections.abc import Callable, Iterator
-from typing import Protocol
+from typing import Protocol, TypeAlias
 
 from proc3s.executors import Executor
 from proc3s.problem import Problem, Trial
@@ -20,21 +20,31 @@ class Sketch(Protocol):
         """The open parameters."""
         ...
 
-    def plans(self, u: FloatArray) -> PlanBatch:
-        """The plans of the samples u, shape (n, dim). Raises SketchError, with what was done before."""
+    def plans(self, u: FloatArray, first: int) -> PlanBatch:
+        """The plans of the samples u, shape (n, dim), numbered from `first`.
+
+        The number seeds what the program draws itself. Raises SketchError, with what was done before.
+        """
         ...
+
+
+Confirm: TypeAlias = Callable[[Trial], SketchError | None]
 
 
 class Evaluator:
     """Takes verdicts on samples of one problem. Equal plans are rolled out once.
 
-    `samples` counts verdicts taken, `evaluations` counts rollouts.
+    `samples` counts verdicts taken, `evaluations` counts rollouts. `confirm` has the last word on a trial
+    that the world accepts: it may return the error that the trial becomes.
     """
 
-    def __init__(self, problem: Problem, sketch: Sketch, executor: Executor) -> None:
+    def __init__(
+        self, problem: Problem, sketch: Sketch, executor: Executor, confirm: Confirm = lambda trial: None
+    ) -> None:
         self.problem = problem
         self._sketch = sketch
         self._executor = executor
+        self._confirm = confirm
         self._known: dict[Plan, Trial] = {}
         self.samples = 0
         self.evaluations = 0
@@ -46,7 +56,7 @@ class Evaluator:
         """
         halted: SketchError | None = None
         try:
-            batch = self._sketch.plans(u)
+            batch = self._sketch.plans(u, self.samples)
         except SketchError as error:
             if error.done is None:
                 raise
@@ -54,6 +64,8 @@ class Evaluator:
         for i, trial in enumerate(self._trials(batch)):
             trial = dataclasses.replace(trial, index=self.samples, u=tuple(u[i].tolist()))
             self.samples += 1
+            if trial.accepted and (refusal := self._confirm(trial)):
+                trial = Trial(error=refusal, index=trial.index, u=trial.u)
             yield trial
         if halted is not None:
             raise halted

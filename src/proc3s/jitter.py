@@ -41,8 +41,8 @@ class Jitter:
         names = {f"number_{i}": Normal(scale) for i, scale in enumerate(self._noise) if scale > 0}
         self.space = Space(names)
 
-    def plans(self, u: FloatArray) -> PlanBatch:
-        """Perturbed plans, one for each row of u."""
+    def plans(self, u: FloatArray, first: int = 0) -> PlanBatch:
+        """Perturbed plans, one for each row of u; their numbers change nothing."""
         n, base = len(u), self._batch
         values = np.tile(base.values, (n, 1))
         values[:, self._noise > 0] += self.space.decode(u)

@@ -1,23 +1,25 @@
 """Options of a run as plain data, and the wiring of the chosen plugins into a `Setup`."""
 
+import dataclasses
 import importlib
 import json
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from pydantic import BaseModel, Field
+from pydantic import BaseModel, Field, TypeAdapter, ValidationError
 
 from proc3s import specs
 from proc3s.domain import Domain
 from proc3s.errors import UsageError, did_you_mean
 from proc3s.executors import Executor
+from proc3s.grounding import Setup
 from proc3s.llms import LLM
-from proc3s.planner import Setup
 from proc3s.problem import Problem
 from proc3s.prompts import Prompter
 from proc3s.registry import Registry
 from proc3s.samplers import Space
+from proc3s.sketch.limits import Limits
 from proc3s.solving import Solver
 from proc3s.specfile import scalar, validate
 
@@ -44,6 +46,8 @@ class RunOptions(specs.Spec):
     method_options: dict[str, str] = Field(default_factory=dict)
     solver_options: dict[str, str] = Field(default_factory=dict)
     llm_options: dict[str, str] = Field(default_factory=dict)
+    limits: dict[str, str] = Field(default_factory=dict)
+    unsafe_exec: bool = False
 
 
 def key_values(pairs: list[str]) -> dict[str, str]:
@@ -107,7 +111,7 @@ def _template_folders(registry: Registry, domain: Domain) -> list[Path]:
     return [*([own] if own and own.is_dir() else []), *reversed(registered)]
 
 
-def make_setup(registry: Registry, options: RunOptions, problem: Problem, picture: Path | None) -> Setup:
+def make_setup(registry: Registry, options: RunOptions, problem: Problem) -> Setup:
     """The parts of the second stage: solver, executor, method and preset."""
     method = select_method(registry, options)
     solver = registry.get(specs.SolverSpec, options.solver or method.solver)
@@ -126,8 +130,27 @@ def make_setup(registry: Registry, options: RunOptions, problem: Problem, pictur
         preset=registry.get(specs.PresetSpec, options.preset),
         make_solver=make_solver,
         executor=executor,
-        picture=picture,
+        limits=make_limits(options.limits),
+        locked=not options.unsafe_exec,
     )
+
+
+def make_limits(given: dict[str, str]) -> Limits:
+    """Limits of the box with what the command line changes. Raises UsageError."""
+    known = TypeAdapter(Limits)
+    names = [f.name for f in dataclasses.fields(Limits)]
+    for name in given:
+        if name not in names:
+            raise UsageError(f"there is no limit {name!r}{did_you_mean(name, names)}")
+    try:
+        limits = known.validate_python(given)
+    except ValidationError as error:
+        detail = error.errors()[0]
+        raise UsageError(f"limit {detail['loc'][0]}: {detail['msg']}, not {detail['input']!r}") from error
+    for name in given:
+        if getattr(limits, name) <= 0:
+            raise UsageError(f"limit {name}: must be above 0, not {given[name]!r}")
+    return limits
 
 
 def part_options(spec: specs.SolverSpec | specs.LLMSpec, given: dict[str, str]) -> BaseModel | None:

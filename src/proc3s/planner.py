@@ -5,46 +5,24 @@ box (`sketch/`), a solver draws its open parameters (`solving.py`), every ground
 world (`problem.py`). If no sample is accepted, a diagnosis of the failures goes into the next question.
 """
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from dataclasses import dataclass, field, replace
-from pathlib import Path
-from typing import TypeAlias
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from proc3s.clock import Clock
 from proc3s.conversation import Exchange, Proposal, Propose
 from proc3s.errors import Interrupted, Proc3sError
-from proc3s.evaluation import Evaluator, Sketch
+from proc3s.evaluation import Evaluator
 from proc3s.events import BatchEvaluated, Emit, ProgramExtracted, RoundEnded, SketchLoaded
 from proc3s.execution import Execution, execute
-from proc3s.executors import Executor
 from proc3s.feedback import Diagnosis, diagnose
-from proc3s.jitter import Jitter
-from proc3s.problem import Problem, Trial
-from proc3s.samplers import Space
-from proc3s.setup_code import setup_code
-from proc3s.sketch.box import BoxedSketch, Limits, Program
+from proc3s.grounding import Opened, Repeatable, Setup, open_sketch
+from proc3s.influence import influence
+from proc3s.problem import Trial
+from proc3s.sketch.box import prewarm
 from proc3s.sketch.errors import SketchError
-from proc3s.solving import Search, Solver, solve
-from proc3s.specs import MethodSpec, PresetSpec
+from proc3s.solving import Search, solve
 from proc3s.state import Plan, source_text
-
-MakeSolver: TypeAlias = Callable[[Space, int, np.random.Generator], Solver]
-
-
-@dataclass(frozen=True)
-class Setup:
-    """Everything a run is made of, but for the one who proposes programs."""
-
-    problem: Problem
-    method: MethodSpec
-    preset: PresetSpec
-    make_solver: MakeSolver
-    executor: Executor
-    limits: Limits = field(default_factory=Limits)
-    picture: Path | None = None
 
 
 @dataclass(frozen=True)
@@ -77,6 +55,7 @@ def plan(setup: Setup, propose: Propose, emit: Emit) -> Outcome:
     execution, error = None, None
     try:
         for round_ in range(setup.method.rounds + 1):
+            prewarm(setup.limits, setup.locked)
             with clock("llm"):
                 proposals.append(propose(round_, history))
             with clock("solve"):
@@ -102,45 +81,25 @@ def _attempt(setup: Setup, proposal: Proposal, emit: Emit) -> Attempt:
         source = proposal.program()
         emit(ProgramExtracted(round=proposal.round, source=source))
         setup = replace(setup, problem=replace(setup.problem, program=source))
-        with _open_sketch(setup, proposal.round, emit) as (sketch, fallback):
-            return _search(setup, sketch, fallback, proposal.round, emit)
+        with open_sketch(setup) as opened:
+            prewarm(setup.limits, setup.locked)  # confirms the winner, or serves the next round
+            samplers = opened.sketch.space.samplers.items()
+            parameters = {name: source_text(sampler) for name, sampler in samplers}
+            emit(SketchLoaded(round=proposal.round, parameters=parameters, log=opened.log))
+            return _search(setup, opened, proposal.round, emit)
     except SketchError as error:
         return Attempt(diagnose((), error), round=proposal.round)
 
 
-@contextmanager
-def _open_sketch(setup: Setup, round_: int, emit: Emit) -> Iterator[tuple[Sketch, Plan | None]]:
-    """The program in its box, as the method wants it, and the plan to fall back on if it has one."""
-    problem, method = setup.problem, setup.method
-    program = Program(
-        source=problem.program,
-        answer=method.answer,
-        prelude=setup_code(problem.domain),
-        initial=source_text(problem.initial),
-        signatures=problem.domain.signatures(problem.initial),
-        samplers=problem.domain.samplers,
-        seed=problem.seed,
-    )
-    with BoxedSketch(program, setup.limits) as boxed:
-        parameters = {name: source_text(sampler) for name, sampler in boxed.space.samplers.items()}
-        emit(SketchLoaded(round=round_, parameters=parameters, log=boxed.log))
-        if method.fallback == "none" and method.perturb == "none":
-            yield boxed, None
-            return
-        centre = boxed.plans(np.full((1, boxed.space.dim), 0.5))
-        unperturbed = centre.plan(0)
-        yield (Jitter(centre) if method.perturb == "gaussian" else boxed), unperturbed
-
-
-def _search(setup: Setup, sketch: Sketch, fallback: Plan | None, round_: int, emit: Emit) -> Attempt:
+def _search(setup: Setup, opened: Opened, round_: int, emit: Emit) -> Attempt:
     budget = {"none": 0, "one": 1, "budget": setup.problem.samples}[setup.method.samples]
-    evaluator = Evaluator(setup.problem, sketch, setup.executor)
+    evaluator = Evaluator(setup.problem, opened.sketch, setup.executor, Repeatable(setup))
     # A key of its own for every round, so that no search draws the numbers that made the scene.
     rng = np.random.default_rng(np.random.SeedSequence(setup.problem.seed, spawn_key=(round_,)))
-    solver = setup.make_solver(sketch.space, budget, rng)
+    space = replace(opened.sketch.space, probe=lambda: influence(opened.sketch))
     search: Search = solve(
-        sketch.space,
-        solver,
+        space,
+        setup.make_solver(space, budget, rng),
         evaluator,
         budget,
         lambda trials: emit(BatchEvaluated.from_trials(round_, trials)) if trials else None,
@@ -148,7 +107,7 @@ def _search(setup: Setup, sketch: Sketch, fallback: Plan | None, round_: int, em
     return Attempt(
         diagnosis=diagnose(search.trials, search.halted),
         solution=search.solution,
-        fallback=fallback if setup.method.fallback == "last_plan" else None,
+        fallback=opened.plan if setup.method.fallback == "last_plan" else None,
         broken_off=search.broken_off,
         samples=evaluator.samples,
         evaluations=evaluator.evaluations,

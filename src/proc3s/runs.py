@@ -1,6 +1,7 @@
 """Run folders: an append-only log of events beside the files a person opens first."""
 
 import contextlib
+import itertools
 import json
 import platform
 import re
@@ -97,11 +98,18 @@ def markdown(messages: tuple[Message, ...]) -> str:
 
 
 def new_folder(parent: Path, task: str, method: str, seed: int) -> Path:
-    """A name under `parent` that does not exist yet, sorting by time."""
+    """A new folder under `parent` that nobody else has, sorting by time. Raises UsageError."""
     stamp = datetime.now().strftime("%Y%m%d-%H%M%S")
     base = f"{stamp}-{re.sub(r'[^A-Za-z0-9]+', '-', task)}-{method}-seed{seed}"
-    names = (base if n == 1 else f"{base}-{n}" for n in range(1, 10**6))
-    return next(parent / name for name in names if not (parent / name).exists())
+    for name in (base if n == 1 else f"{base}-{n}" for n in itertools.count(1)):
+        try:
+            (parent / name).mkdir(parents=True)
+        except FileExistsError:
+            continue
+        except OSError as error:
+            raise UsageError(f"the run folder {parent / name} cannot be made: {error.strerror}") from error
+        return parent / name
+    raise AssertionError("itertools.count never ends")
 
 
 def versions() -> dict[str, str]:

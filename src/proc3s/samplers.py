@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, Protocol
 
 import numpy as np
@@ -61,14 +62,23 @@ class DiscreteSampler:
 
 @dataclass(frozen=True)
 class Space:
-    """The open parameters of a program, in order: each with its sampler."""
+    """The open parameters of a program, in order: each with its sampler.
+
+    `probe` finds out where in the plan each parameter begins to matter; it runs the program.
+    """
 
     samplers: Mapping[str, Sampler]
+    probe: Callable[[], Mapping[str, int]] | None = None
 
     @property
     def dim(self) -> int:
         """Dimensions of the unit cube that a solver searches."""
         return sum(sampler.dim for sampler in self.samplers.values())
+
+    @cached_property
+    def influence(self) -> Mapping[str, int]:
+        """The first step of the plan that each parameter changes; 0 where that is not known."""
+        return self.probe() if self.probe else dict.fromkeys(self.samplers, 0)
 
     def decode(self, u: FloatArray) -> FloatArray:
         """Points u of shape (n, dim) to wire rows of shape (n, columns)."""

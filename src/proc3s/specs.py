@@ -116,6 +116,8 @@ class ParamSpec(Spec):
             raise ValueError("a parameter of type str needs choices")
         if self.min > self.max:
             raise ValueError(f"min {self.min} is above max {self.max}")
+        if self.noise and self.type not in ("float", "point"):
+            raise ValueError(f"only numbers and points take noise, not a {self.type}")
         return self
 
 

@@ -7,8 +7,9 @@ from typing import Any, Literal
 from pydantic import BaseModel
 
 from proc3s.feedback import Diagnosis, Failure
+from proc3s.grounding import Setup
 from proc3s.options import RunOptions
-from proc3s.planner import Outcome, Setup
+from proc3s.planner import Outcome
 
 
 class Summary(BaseModel):

@@ -30,6 +30,7 @@ def said(result):
         (["run", "drawing/star", "-M", "ronds=1"], ["proc3s", "'ronds'", "did you mean 'rounds'?"]),
         (["run", "drawing/star", "-M", "rounds=x"], ["proc3s", "rounds", "integer"]),
         (["run", "drawing/star", "-D", "cuont=5"], ["cuont"]),
+        (["run", "drawing/star", "-D", "count=many"], ["count", "integer", "many"]),
         (["run", "drawing/star", "-D", "count"], ["key=value", "'count'"]),
         (
             ["run", "drawing/star", "-M", "template=proc3"],

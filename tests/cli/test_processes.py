@@ -166,6 +166,17 @@ def test_kill_9_while_sampling_leaves_a_folder_that_can_be_read_and_replayed(
     assert (prompt.code, prompt.stdout) == (0, "")
 
 
+@pytest.mark.slow
+def test_runs_that_begin_in_the_same_second_have_folders_of_their_own(background):
+    from contextlib import ExitStack
+
+    with ExitStack() as stack:
+        runs = [stack.enter_context(background("run", "drawing/star", "--json")) for _ in range(4)]
+        ended = [(run.communicate(timeout=60), run.returncode) for run in runs]
+    assert [code for _, code in ended] == [0] * 4, [err for (_, err), _ in ended]
+    assert len({json.loads(out)["run_dir"] for (out, _), _ in ended}) == 4
+
+
 def test_progress_is_silent_when_nobody_watches(shell, stub):
     result = shell("run", "drawing/star", "--llm", stub(LONG), "--feedback", 0, "--samples", 3000)
     assert result.code == 1

@@ -34,7 +34,7 @@ class Slides:
         self._moves, self._errors = moves, dict(errors)
         self.asked = 0
 
-    def plans(self, u):
+    def plans(self, u, first):
         moves = self._moves[self.asked : self.asked + len(u)]
         errors = {i - self.asked: e for i, e in self._errors.items() if 0 <= i - self.asked < len(moves)}
         self.asked += len(u)

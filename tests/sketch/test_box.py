@@ -309,9 +309,9 @@ def test_values_out_of_range_are_found_per_sample(box):
     """)
     batch = sketch.plans(np.array([[0.1], [0.3], [0.75], [0.9], [0.3]]))
     assert {i: str(error) for i, error in batch.errors.items()} == {
-        0: "step 2, draw_line: y1 is -25, must lie between 0 and 100",
-        2: "step 2, draw_line: y1 is 137.5, must lie between 0 and 100",
-        3: "step 2, draw_line: y1 is 175, must lie between 0 and 100",
+        0: "step 2, draw_line: y1 must lie between 0 and 100",
+        2: "step 2, draw_line: y1 must lie between 0 and 100",
+        3: "step 2, draw_line: y1 must lie between 0 and 100",
     }
     assert len(batch.plan(4)) == 3
 
@@ -323,12 +323,12 @@ BREACHES = {
     "[5]": "step 0 is 5, expected an Action",
     "[good, Action('jump', [])]": "step 1: unknown skill 'jump'; there is draw_line, repeat, pick, look",
     "[good] * 501": "more than 500 actions",
-    "[Action('repeat', [1.5])]": "step 0, repeat: times is 1.5, expected a whole number",
+    "[Action('repeat', [1.5])]": "step 0, repeat: times must be a whole number",
     "[Action('repeat', [10**400])]": "times is a huge integer",
     "[Action('repeat', [True])]": "times is True, expected a number",
     "[Action('repeat', 3)]": "step 0, repeat: the values are 3, expected a list",
     "[Action('repeat', [np.zeros(2)])]": "times is of type ndarray, expected a number",
-    "[Action('look', [(1, 2, 1e7), 'far'])]": r"at is 1e\+07, expected a finite number below 1e\+06",
+    "[Action('look', [(1, 2, 1e7), 'far'])]": r"at must be a finite number below 1e\+06",
     "[Action('look', [(1, 2), 'far'])]": "at has 2 numbers, expected 3",
     "[Action('pick', ['object_5', Pose(1, 2, 3)])]": "'object_5', .*name of an object; there is object_0",
     "[Action('pick', ['object_1', 'top'])]": "grasp is 'top', expected a grasp",
@@ -352,6 +352,7 @@ def test_a_breach_in_one_sample_is_that_samples_error(box):
         with pytest.raises(SketchError, match=text) as caught:
             batch.plan(i)
         assert caught.value.kind == "SketchContractError"
+        assert "Unfit" not in str(caught.value)
     assert not sketch.plans(np.stack([k, np.ones_like(k) * 0.9], axis=1)).errors
 
 

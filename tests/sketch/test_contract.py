@@ -79,27 +79,34 @@ def test_missing_functions(box):
     ]
 
 
-@pytest.mark.parametrize(
-    ("expression", "text"),
-    [
-        ("ContinuousSampler(0, float('nan'))", "x has max nan, expected a finite number"),
-        ("ContinuousSampler('0', 1)", "x has min '0', expected a number"),
-        ("ContinuousSampler(0, 10**400)", "x has max inf, expected a finite number"),
-        ("ContinuousSampler([0], 1)", "x has min a list, expected a number"),
-        ("ContinuousSampler", "x is the class ContinuousSampler itself, expected a sampler"),
-        ("(0, 1)", "x is a tuple, expected a sampler"),
-        ("DiscreteSampler([])", "x: needs at least one value"),
-        ("DiscreteSampler('abc')", "x has values 'abc', expected a list"),
-        ("DiscreteSampler([1, None])", "x has None among its values"),
-        ("DiscreteSampler([1, float('inf')])", "x has inf among its values, expected finite numbers"),
-        ("DiscreteSampler(range(1001))", "x has more than 1000 values"),
-        ("DiscreteSampler([{}])", "x has a dict among its values, expected numbers, strings or True/False"),
-    ],
-)
-def test_samplers(box, expression, text):
-    [(line, message)] = issues(box, with_sampler(expression))
-    assert line == 6
-    assert message.startswith(f"gen_domain: {text}")
+SAMPLERS = {
+    "ContinuousSampler(0, float('nan'))": " has max nan, expected a finite number",
+    "ContinuousSampler('0', 1)": " has min '0', expected a number",
+    "ContinuousSampler(0, 10**400)": " has max inf, expected a finite number",
+    "ContinuousSampler([0], 1)": " has min a list, expected a number",
+    "ContinuousSampler(2, 1)": ": min 2 is above max 1",
+    "ContinuousSampler": " is the class ContinuousSampler itself, expected a sampler",
+    "(0, 1)": " is a tuple, expected a sampler (ContinuousSampler, DiscreteSampler)",
+    "DiscreteSampler([])": ": needs at least one value",
+    "DiscreteSampler('abc')": " has values 'abc', expected a list",
+    "DiscreteSampler([1, None])": " has None among its values, expected numbers, strings or True/False",
+    "DiscreteSampler([1, float('inf')])": " has inf among its values, expected finite numbers",
+    "DiscreteSampler(range(1001))": " has more than 1000 values",
+    "DiscreteSampler([{}])": " has a dict among its values, expected numbers, strings or True/False",
+    "DiscreteSampler(['x' * 201])": " has a text of more than 200 characters among its values",
+    "DiscreteSampler([2**70])": " has a huge integer among its values",
+}
+
+
+def test_samplers(box):
+    names = [f"p{i}" for i in range(len(SAMPLERS))]
+    entries = "".join(f"        {name}={text},\n" for name, text in zip(names, SAMPLERS, strict=True))
+    source = f"def gen_plan(state, {', '.join(names)}):\n    return 1/0\n\n"
+    source += f"def gen_domain(state):\n    return dict(\n{entries}    )"
+    for i, (found, text) in enumerate(zip(issues(box, source), SAMPLERS.values(), strict=True)):
+        line, message = found
+        assert line == 6 + i
+        assert message.startswith(f"gen_domain: p{i}{text}")
 
 
 @pytest.mark.parametrize(

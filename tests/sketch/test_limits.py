@@ -9,7 +9,7 @@ from proc3s.sketch import Limits, SketchCrash, SketchMemoryError, SketchTimeout
 
 from .conftest import cube
 
-SHORT = Limits(call=0.3, load=0.6)
+SHORT = Limits(call=0.4, load=1.0)
 
 
 def after(number, what):
@@ -40,10 +40,10 @@ def test_a_hang_keeps_the_finished_samples_and_names_the_line(box, what, where):
     sketch = box(after(700, what), limits=SHORT)
     started = time.monotonic()
     with pytest.raises(
-        SketchTimeout, match=r"line 3: one call of gen_plan took longer than 0\.3 s"
+        SketchTimeout, match=r"line 3: one call of gen_plan took longer than 0\.4 s"
     ) as caught:
         sketch.plans(COUNTING)
-    assert time.monotonic() - started < 2
+    assert time.monotonic() - started < 5
     assert where in caught.value.source
     done = caught.value.done
     assert len(done) == 700
@@ -54,7 +54,7 @@ def test_a_hang_keeps_the_finished_samples_and_names_the_line(box, what, where):
 
 
 def test_a_hang_while_loading(box):
-    with pytest.raises(SketchTimeout, match=r"line 2: loading the program took longer than 0\.6 s"):
+    with pytest.raises(SketchTimeout, match=r"line 2: loading the program took longer than 1 s"):
         box("x = 1\nwhile x: x += 1", limits=SHORT)
 
 
@@ -71,7 +71,7 @@ def test_cpu_time_has_a_limit(box):
 
 
 @pytest.mark.parametrize(
-    "what", ["hog = bytearray(10**12)", "hog = []\n        while True: hog.append(' ' * 10**7)"]
+    "what", ["hog = bytearray(10**12)", "hog = []\n        while True: hog.append({len(hog): 1})"]
 )
 def test_memory(box, what):
     with pytest.raises(SketchMemoryError, match="MemoryError") as caught:

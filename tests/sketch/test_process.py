@@ -32,7 +32,7 @@ def test_the_next_box_takes_the_warm_worker():
     limits = Limits(cpu=1234)
     prewarm(limits)
     prewarm(limits)
-    [spare] = launcher()._spares[limits.memory, limits.cpu]
+    [spare] = launcher()._spares[limits.memory, limits.cpu, True]
     with BoxedSketch(program(LINE), limits) as first, BoxedSketch(program(LINE), limits) as second:
         assert pid_of(first) == spare.pid != pid_of(second)
         assert np.array_equal(first.plans(cube(9, 2)).values, second.plans(cube(9, 2)).values)
@@ -41,7 +41,7 @@ def test_the_next_box_takes_the_warm_worker():
 def test_a_spare_that_died_is_replaced():
     limits = Limits(cpu=1235)
     prewarm(limits)
-    [spare] = launcher()._spares[limits.memory, limits.cpu]
+    [spare] = launcher()._spares[limits.memory, limits.cpu, True]
     os.kill(spare.pid, signal.SIGKILL)
     spare.wait()
     with BoxedSketch(program(LINE), limits) as sketch:

@@ -143,6 +143,39 @@ def test_frames_may_arrive_in_pieces(cut):
     assert (str(batch.errors[1]), batch.errors[1].source) == ("line 2: boom", "b")
 
 
+@pytest.mark.parametrize(
+    "forged",
+    [
+        plan(1, [1], [3]),
+        plan(0, [1] * 21, [3] * 21),
+        frame(0, PLAN, bytes(9), 2),
+        frame(0, PLAN, bytes(8), 9),
+        REPLY.pack(0, PLAN, 0, 2**31),
+        frame(0, 99, b""),
+        frame(0, READY, b'""'),
+        frame(0, ERROR, fault(), actions=1),
+        frame(0, ERROR, fault(line=float("nan"))),
+        frame(0, ERROR, fault().replace(b"2", b"1e999")),
+        frame(0, ERROR, fault().replace(b"2", b"9" * 1500)),
+        frame(0, ERROR, fault(line=-5)),
+        frame(0, ERROR, fault(line=True)),
+        frame(0, ERROR, fault(message="\ud800")),
+        frame(0, ERROR, fault().replace(b"boom", b"\xff")),
+        frame(0, ERROR, fault("prelude")),
+        frame(0, ERROR, fault("os")),
+        frame(0, ERROR, b"[" * 1900),
+        frame(0, ERROR, b"{}"),
+        frame(0, LOG, b"[]"),
+        frame(0, LOG, b'""') * 2,
+        plan(0, [1], [3]) + plan(0, [1], [3]),
+        plan(0, [1], [3]) + b"\0",
+    ],
+)
+def test_forged_frames(forged):
+    with pytest.raises(Malformed):
+        Replies(0, 1, SOURCE, LIMITS).feed(forged)
+
+
 def test_a_line_that_the_program_does_not_have_is_dropped():
     replies = Replies(0, 1, SOURCE, LIMITS)
     replies.feed(frame(0, ERROR, fault(line=3)))
@@ -166,12 +199,12 @@ def test_the_batch_ends_before_a_plan_that_does_not_fit_its_skills():
 @pytest.mark.parametrize(
     ("low", "high", "value", "text"),
     [
-        (0, 1, 2.0, "x is 2, must lie between 0 and 1"),
-        (0, 100, 100.00000001, "x is 100.00000001, must lie between 0 and 100"),
-        (-np.inf, 1, 2.5, "x is 2.5, must be at most 1"),
-        (0, np.inf, -0.25, "x is -0.25, must be at least 0"),
-        (-np.inf, np.inf, -2e6, "x is -2e+06, expected a finite number below 1e+06"),
-        (-np.inf, np.inf, np.nan, "x is nan, expected a finite number below 1e+06"),
+        (0, 1, 2.0, "x must lie between 0 and 1"),
+        (0, 100, 100.00000001, "x must lie between 0 and 100"),
+        (-np.inf, 1, 2.5, "x must be at most 1"),
+        (0, np.inf, -0.25, "x must be at least 0"),
+        (-np.inf, np.inf, -2e6, "x must be a finite number below 1e+06"),
+        (-np.inf, np.inf, np.nan, "x must be a finite number below 1e+06"),
     ],
 )
 def test_ranges(low, high, value, text):
@@ -185,8 +218,8 @@ def test_only_the_first_illegal_value_of_a_sample_is_named():
     replies = Replies(0, 2, SOURCE, LIMITS)
     replies.feed(plan(0, [1, 0], [1, 0, 500, 600, 0]) + plan(1, [1, 1], [2.5, 99]))
     assert [str(error) for error in COLUMNS.batch(replies).errors.values()] == [
-        "step 1, draw_line: y1 is 500, must lie between 0 and 100",
-        "step 0, repeat: times is 2.5, expected a whole number",
+        "step 1, draw_line: y1 must lie between 0 and 100",
+        "step 0, repeat: times must be a whole number",
     ]
 
 
@@ -194,4 +227,4 @@ def test_names_are_indices_into_our_own_table():
     for index in (-1.0, 2.0, 0.5, np.nan):
         replies = Replies(0, 1, SOURCE, LIMITS)
         replies.feed(plan(0, [3], [1, 2, 3, index]))
-        assert "look: mode is " in str(COLUMNS.batch(replies).errors[0])
+        assert "look: mode must be one of near, far" in str(COLUMNS.batch(replies).errors[0])

@@ -41,6 +41,13 @@ MethodOptions: TypeAlias = Annotated[
 SolverOptions: TypeAlias = Annotated[
     list[str] | None, typer.Option("-S", metavar="KEY=VALUE", help="option of the solver")
 ]
+LimitOptions: TypeAlias = Annotated[
+    list[str] | None,
+    typer.Option("--limit", metavar="KEY=VALUE", help="limit of the box, e.g. call=2"),
+]
+UnsafeExec: TypeAlias = Annotated[
+    bool, typer.Option("--unsafe-exec", help="run programs WITHOUT the kernel's lock; warns each time")
+]
 LlmOptions: TypeAlias = Annotated[
     list[str] | None, typer.Option("-L", metavar="KEY=VALUE", help="option of the LLM")
 ]

@@ -121,7 +121,7 @@ class Console:
         out.print(_headline(summary))
         if summary.error is None:
             out.print(escape(f"goal     {_goal(summary)}"))
-        out.print(f"samples  {summary.samples} in {summary.rounds + 1} round(s), {_times(summary)}")
+        out.print(f"samples  {summary.samples} in {_count(summary.rounds + 1, 'round')}, {_times(summary)}")
         if summary.llm_source == "authored":
             out.print("answer   authored (written by hand, not by a model)")
         for step, action in enumerate(summary.plan or []):
@@ -132,12 +132,16 @@ class Console:
         out.print(escape(f"folder   {summary.run_dir}"))
 
 
+def _count(number: int, what: str) -> str:
+    return f"{number} {what}" if number == 1 else f"{number} {what}s"
+
+
 def _headline(summary: Summary) -> str:
     if summary.error is not None:
         return f"[bold red]stopped[/]  {summary.task} (seed {summary.seed})"
     if summary.solved:
-        steps = len(summary.plan or [])
-        return f"[bold green]solved[/]   {summary.task} (seed {summary.seed}), a plan of {steps} steps"
+        steps = _count(len(summary.plan or []), "step")
+        return f"[bold green]solved[/]   {summary.task} (seed {summary.seed}), a plan of {steps}"
     tail = "; a plan that violates constraints was executed" if summary.executed == "fallback" else ""
     return f"[bold red]unsolved[/] {summary.task} (seed {summary.seed}){tail}"
 

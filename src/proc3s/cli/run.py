@@ -26,6 +26,8 @@ def run(
     method_options: a.MethodOptions = None,
     solver_options: a.SolverOptions = None,
     llm_options: a.LlmOptions = None,
+    limits: a.LimitOptions = None,
+    unsafe_exec: a.UnsafeExec = False,
     json: a.Json = False,
 ) -> None:
     """Solve a task: ask the LLM for a program, search its numbers, execute the plan, judge the result."""
@@ -48,6 +50,8 @@ def run(
         method_options=method_options,
         solver_options=solver_options,
         llm_options=llm_options,
+        limits=limits,
+        unsafe_exec=unsafe_exec,
     )
     run_task(options, out, json)
 
@@ -67,6 +71,8 @@ def solve(
     domain_options: a.DomainOptions = None,
     method_options: a.MethodOptions = None,
     solver_options: a.SolverOptions = None,
+    limits: a.LimitOptions = None,
+    unsafe_exec: a.UnsafeExec = False,
     json: a.Json = False,
 ) -> None:
     """Second stage only: search the numbers of a program that is there already. Asks no LLM."""
@@ -86,5 +92,7 @@ def solve(
         domain_options=domain_options,
         method_options=method_options,
         solver_options=solver_options,
+        limits=limits,
+        unsafe_exec=unsafe_exec,
     )
     run_task(options, out, json, lambda: Given(read_program(sketch)))

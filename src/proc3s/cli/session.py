@@ -1,7 +1,7 @@
 """One run from the command line: options to parts, parts to a run folder, a console and a summary."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -31,7 +31,7 @@ from proc3s.summary import Summary, summarize
 def run_options(**given: Any) -> RunOptions:
     """Options of a run from the arguments of a command; None leaves the default."""
     values = {name: value for name, value in given.items() if value is not None}
-    for name in ("domain_options", "method_options", "solver_options", "llm_options"):
+    for name in ("domain_options", "method_options", "solver_options", "llm_options", "limits"):
         values[name] = key_values(values.get(name, []))
     if "plugins" in values:
         values["plugins"] = [path.resolve() for path in values["plugins"]]
@@ -103,14 +103,17 @@ def replay_run(run: Path, changes: dict[str, Any], out: Path | None, as_json: bo
 def _run(options: RunOptions, out: Path | None, as_json: bool, given: Given | None) -> tuple[Summary, int]:
     if given is not None:
         options = options.model_copy(update={"feedback": 0})
+    if options.unsafe_exec:
+        typer.echo("proc3s: WARNING: with --unsafe-exec the LLM's programs can read your files", err=True)
     registry = open_registry(options.plugins)
     problem = make_problem(registry, options, goal_needed=given is None)
-    path = out or new_folder(Path("runs"), options.task, options.method, options.seed)
-    setup = make_setup(registry, options, problem, path / "plan.png")
+    setup = make_setup(registry, options, problem)
     if given is None:
         llm, prompter = make_llm(registry, options), make_prompter(registry, options, problem)
         prompter.rehearse(problem)
         ask = partial(ask_llm, llm, prompter, problem)
+    path = out or new_folder(Path("runs"), options.task, options.method, options.seed)
+    setup = replace(setup, picture=path / "plan.png")
     folder = RunFolder(path)
     console = Console(options, quiet=as_json)
     emit = _broadcast(registry, folder, console)

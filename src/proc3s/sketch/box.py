@@ -14,7 +14,7 @@ from proc3s.sketch.columns import Columns
 from proc3s.sketch.contract import OpenParameter, in_order, issue, open_parameters, space_of
 from proc3s.sketch.errors import SketchContractError, SketchCrash, SketchError
 from proc3s.sketch.limits import Limits
-from proc3s.sketch.process import launcher
+from proc3s.sketch.process import Kind, launcher
 from proc3s.sketch.protocol import CONTENTS, FAULT, PROBLEMS, Contents, Malformed, Replies, error_of, parse
 from proc3s.sketch.text import Source, clean, message
 from proc3s.specs import SamplerSpec
@@ -45,6 +45,8 @@ class BoxedSketch:
     """A loaded program. A context manager; `close` may be called any number of times.
 
     `space` holds its open parameters in the order of gen_plan, `log` what it printed while loading.
+    `locked=False` runs the program with your rights, without the kernel's lock; `friendly=False` gives it
+    all builtins and Python's own messages for imports, without any loss of safety.
     Raises SketchError if the program does not load or breaks the contract, SandboxUnavailable if it
     cannot be locked in.
     """
@@ -52,17 +54,25 @@ class BoxedSketch:
     space: Space
     log: str
 
-    def __init__(self, program: Program, limits: Limits = Limits()) -> None:  # noqa: B008 - frozen
+    def __init__(
+        self,
+        program: Program,
+        limits: Limits = Limits(),  # noqa: B008 - frozen
+        *,
+        locked: bool = True,
+        friendly: bool = True,
+    ) -> None:
         self._program = program
         self._limits = limits
         self._source = Source(program.source)
         self._columns = Columns(program.signatures)
         self._next_sample = 0
         _check_size(program.source, limits)
-        self._channel = Channel(launcher().take(limits.memory, limits.cpu), self._source, limits)
+        worker = launcher().take(Kind(limits.memory, limits.cpu, locked))
+        self._channel = Channel(worker, self._source, limits)
         self._end = weakref.finalize(self, self._channel.close)
         try:
-            self._parameters = self._load()
+            self._parameters = self._load(friendly)
         except BaseException:
             self.close()
             raise
@@ -117,12 +127,12 @@ class BoxedSketch:
             raise error
         return batch
 
-    def _load(self) -> list[OpenParameter]:
+    def _load(self, friendly: bool) -> list[OpenParameter]:
         """Load, check the contract, and return the parameters; all breaches are raised at once."""
         self._channel.wait_until_ready()
         deadline = time.monotonic() + self._limits.load
         try:
-            contents = self._contents(deadline)
+            contents = self._contents(_request(self._program, self._limits, friendly), deadline)
             self.log = clean(contents.log, self._limits.printed)
             parameters, issues = open_parameters(contents, self._program.samplers, self._source)
             body = json.dumps([p.centre for p in parameters]).encode()
@@ -137,9 +147,8 @@ class BoxedSketch:
             raise lie(Malformed("a parameter has no sampler"))
         return parameters
 
-    def _contents(self, deadline: float) -> Contents:
-        body = json.dumps(_request(self._program, self._limits)).encode()
-        kind, answer = self._channel.ask(LOAD, body, LOADED, deadline)
+    def _contents(self, request: dict[str, Any], deadline: float) -> Contents:
+        kind, answer = self._channel.ask(LOAD, json.dumps(request).encode(), LOADED, deadline)
         if kind != ERROR:
             return parse(CONTENTS, answer)
         fault = parse(FAULT, answer)
@@ -148,9 +157,9 @@ class BoxedSketch:
         raise error_of(fault, self._source)
 
 
-def prewarm(limits: Limits = Limits()) -> None:  # noqa: B008 - frozen
+def prewarm(limits: Limits = Limits(), locked: bool = True) -> None:  # noqa: B008 - frozen
     """Start a worker for the next BoxedSketch with these limits now. Raises SandboxUnavailable."""
-    launcher().warm(limits.memory, limits.cpu)
+    launcher().warm(Kind(limits.memory, limits.cpu, locked))
 
 
 def _check_size(source: str, limits: Limits) -> None:
@@ -159,8 +168,9 @@ def _check_size(source: str, limits: Limits) -> None:
         raise SketchContractError(f"the program has {size} bytes, at most {limits.source} are possible")
 
 
-def _request(program: Program, limits: Limits) -> dict[str, Any]:
+def _request(program: Program, limits: Limits, friendly: bool) -> dict[str, Any]:
     return {
+        "friendly": friendly,
         "source": program.source,
         "answer": program.answer,
         "prelude": program.prelude,

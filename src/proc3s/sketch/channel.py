@@ -53,7 +53,7 @@ class Channel:
         self._traces = worker.stderr.fileno()
         for descriptor in (self._requests, self._replies, self._traces):
             os.set_blocking(descriptor, False)
-        with contextlib.suppress(OSError):  # only slower where so large a pipe is not allowed
+        with contextlib.suppress(OSError, AttributeError):  # only slower where there is no so large a pipe
             fcntl.fcntl(self._replies, fcntl.F_SETPIPE_SZ, _PIPE)
         self._poll = select.poll()
         self._poll.register(self._replies, select.POLLIN)
@@ -165,8 +165,7 @@ class Channel:
         line, text = self._running_line(0.1)
         if code == -signal.SIGXCPU:
             raise SketchTimeout(f"the program used more than {self._limits.cpu} s of CPU time", line, text)
-        how = signal.Signals(-code).name if code < 0 else f"exit code {code}"
-        raise SketchCrash(f"the program's process died ({how})", line, text)
+        raise SketchCrash(f"the program's process died ({_exit(code)})", line, text)
 
     def _running_line(self, wait: float) -> tuple[int | None, str | None]:
         """The innermost line of the program in the worker's trace, of which only numbers are believed."""
@@ -185,6 +184,12 @@ class Channel:
                 break
             text += data
         return text
+
+
+def _exit(code: int) -> str:
+    if -code in set(signal.Signals):
+        return signal.Signals(-code).name
+    return f"signal {-code}" if code < 0 else f"exit code {code}"
 
 
 def _nap(due: int) -> None:

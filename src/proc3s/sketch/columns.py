@@ -94,21 +94,15 @@ def _range(param: Parameter) -> tuple[float, float]:
 
 
 def _complaint(value: float, param: Parameter) -> str:
+    """What is wrong with a value, without the value: the same text for all samples that share the fault."""
     if not abs(value) < _BOUND:
-        return f"{param.name} is {value:g}, expected a finite number below {_BOUND:g}"
+        return f"{param.name} must be a finite number below {_BOUND:g}"
     if param.type in ("str", "object"):
-        return f"{param.name} is none of {', '.join(param.choices)}"
+        return f"{param.name} must be one of {', '.join(param.choices)}"
     if param.type == "int" and value != np.floor(value):
-        return f"{param.name} is {value:g}, expected a whole number"
-    # as short as can be without looking legal
-    short = f"{value:.6g}"
-    text = (
-        f"{param.name} is {value!r}"
-        if param.low <= float(short) <= param.high
-        else f"{param.name} is {short}"
-    )
+        return f"{param.name} must be a whole number"
     if np.isinf(param.high):
-        return f"{text}, must be at least {param.low:g}"
+        return f"{param.name} must be at least {param.low:g}"
     if np.isinf(param.low):
-        return f"{text}, must be at most {param.high:g}"
-    return f"{text}, must lie between {param.low:g} and {param.high:g}"
+        return f"{param.name} must be at most {param.high:g}"
+    return f"{param.name} must lie between {param.low:g} and {param.high:g}"

@@ -6,9 +6,10 @@ from textwrap import dedent
 
 from proc3s.sketch.errors import SketchContractError
 
-_OPENING = re.compile(r"\s*(?P<fence>`{3,}|~{3,})\s*(?P<language>[\w+.-]*)[^`]*$")
+# possessive, and blank within a line: no answer, however long, makes them search long
+_OPENING = re.compile(r"\s*+(?P<fence>`{3,}+|~{3,}+)\s*+(?P<language>[\w+.-]*+)[^`]*+$")
 _PYTHON = {"python", "python3", "py"}
-_PROGRAM = re.compile(r"^\s*(def gen_plan\b|gen_plan\s*(:[^=\n]*)?=)", re.MULTILINE)
+_PROGRAM = re.compile(r"^[ \t]*+(def gen_plan\b|gen_plan[ \t]*+(:[^=\n]*+)?=)", re.MULTILINE)
 
 
 def extract_program(answer: str) -> str:

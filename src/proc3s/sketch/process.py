@@ -8,7 +8,7 @@ from collections import deque
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
 from pathlib import Path
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from proc3s.sketch.errors import SandboxUnavailable
 
@@ -24,6 +24,14 @@ _ENVIRONMENT = {
 }
 
 
+class Kind(NamedTuple):
+    """What a worker is started with: bytes, CPU seconds, and whether the kernel locks it in."""
+
+    memory: int
+    cpu_seconds: int
+    locked: bool
+
+
 class Launcher:
     """Starts workers from one thread that lives as long as this process.
 
@@ -33,30 +41,31 @@ class Launcher:
 
     def __init__(self) -> None:
         self._thread = ThreadPoolExecutor(1, thread_name_prefix="sketch-launcher")
-        self._spares: dict[tuple[int, int], deque[Worker]] = {}
+        self._spares: dict[Kind, deque[Worker]] = {}
         weakref.finalize(self, _end_all, self._spares)
 
-    def warm(self, memory: int, cpu_seconds: int) -> None:
-        """Start a spare with these limits unless one is waiting. Raises SandboxUnavailable."""
-        spares = self._spares.setdefault((memory, cpu_seconds), deque())
+    def warm(self, kind: Kind) -> None:
+        """Start a spare of this kind unless one is waiting. Raises SandboxUnavailable."""
+        spares = self._spares.setdefault(kind, deque())
         if not spares:
-            spares.append(self._start(memory, cpu_seconds))
+            spares.append(self._start(kind))
 
-    def take(self, memory: int, cpu_seconds: int) -> Worker:
+    def take(self, kind: Kind) -> Worker:
         """A worker of one's own: the spare if there is one. Raises SandboxUnavailable."""
-        spares = self._spares.get((memory, cpu_seconds), deque())
+        spares = self._spares.get(kind, deque())
         while spares:
             worker = spares.popleft()
             if worker.poll() is None:
                 return worker
             end(worker)
-        return self._start(memory, cpu_seconds)
+        return self._start(kind)
 
-    def _start(self, memory: int, cpu_seconds: int) -> Worker:
-        if sys.platform != "linux":
+    def _start(self, kind: Kind) -> Worker:
+        if kind.locked and sys.platform != "linux":
             raise SandboxUnavailable(f"this is {sys.platform}")
         script = str(Path(__file__).with_name("worker.py"))
-        command = [sys.executable, "-s", "-B", script, str(memory), str(cpu_seconds)]
+        lock = "locked" if kind.locked else "unlocked"
+        command = [sys.executable, "-s", "-B", script, str(kind.memory), str(kind.cpu_seconds), lock]
         try:
             return self._thread.submit(_spawn, command).result()
         except OSError as error:
@@ -87,7 +96,7 @@ def end(worker: Worker) -> None:
             pipe.close()
 
 
-def _end_all(spares: dict[tuple[int, int], deque[Worker]]) -> None:
+def _end_all(spares: dict[Kind, deque[Worker]]) -> None:
     for worker in (worker for queue in spares.values() for worker in queue):
         end(worker)
 

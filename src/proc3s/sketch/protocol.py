@@ -6,9 +6,18 @@ Whatever a worker sends ends in plain validated data or in one exception, `Malfo
 from collections.abc import Callable
 from typing import Annotated, Literal, TypeVar
 
-from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
 
-from proc3s.sketch.boxed.wire import ERROR, LOG, MOST_PARAMETERS, PLAN, REPLY
+from proc3s.sketch.boxed.wire import (
+    ERROR,
+    LOG,
+    LONGEST_NAME,
+    MOST_PARAMETERS,
+    MOST_PROBLEMS,
+    MOST_VALUES,
+    PLAN,
+    REPLY,
+)
 from proc3s.sketch.errors import (
     SketchContractError,
     SketchError,
@@ -20,8 +29,16 @@ from proc3s.sketch.limits import Limits
 from proc3s.sketch.text import Source, clean, message
 
 Line = Annotated[int, Field(ge=1, le=1_000_000)] | None
-Scalar = float | int | str | bool
+Integer = Annotated[int, Field(ge=-(2**63), lt=2**63)]
+Scalar = float | Integer | str | bool
+Problems = Annotated[list[tuple[str, Line]], Field(max_length=MOST_PROBLEMS)]
 T = TypeVar("T")
+
+
+def _identifier(name: str) -> str:
+    if not name.isidentifier() or clean(name, LONGEST_NAME, keep="") != name:
+        raise ValueError("no identifier")
+    return name
 
 
 class Malformed(Exception):
@@ -45,25 +62,23 @@ class Fault(Reply):
 class ReadParameter(Reply):
     """A parameter of gen_plan and the sampler that gen_domain gives it, if it is one."""
 
-    name: Annotated[str, Field(pattern=r"^\w+$")]
+    name: Annotated[str, AfterValidator(_identifier)]
     line: Line
     sampler: str | None
-    args: dict[str, float | list[Scalar]]
+    args: dict[str, float | Annotated[list[Scalar], Field(max_length=MOST_VALUES)]]
 
 
 class Contents(Reply):
     """What a program defines and what is wrong with it."""
 
     parameters: Annotated[list[ReadParameter], Field(max_length=MOST_PARAMETERS)]
-    problems: list[tuple[str, Line]]
+    problems: Problems
     log: str
 
 
 CONTENTS = TypeAdapter(Contents)
 FAULT = TypeAdapter(Fault)
-PROBLEMS: TypeAdapter[list[tuple[str, Line]]] = TypeAdapter(
-    list[tuple[str, Line]], config=ConfigDict(strict=True)
-)
+PROBLEMS: TypeAdapter[list[tuple[str, Line]]] = TypeAdapter(Problems, config=ConfigDict(strict=True))
 TEXT: TypeAdapter[str] = TypeAdapter(str, config=ConfigDict(strict=True))
 
 _ERRORS: dict[str, Callable[..., SketchError]] = {

@@ -1,16 +1,22 @@
 """Text that a program or a model wrote, made fit for terminals, logs, pages and prompts."""
 
+import re
 from dataclasses import dataclass
 from functools import cached_property
 
 MESSAGE_LENGTH = 600
 LINE_LENGTH = 200
+_INVISIBLE = re.compile(
+    "[\u034f\u115f\u1160\u17b4\u17b5\u180b-\u180f\u2800\u3164\ufe00-\ufe0f\uffa0\U000e0100-\U000e01ef]"
+)
+"""Characters that Python takes for printable and that show nothing: fillers, joiners, variation selectors."""
 
 
 def clean(text: str, length: int, keep: str = "\n\t") -> str:
     """`text` cut to `length` characters, without control, bidirectional, zero-width ones."""
     if len(text) > length:
         text = text[: length - 1] + "…"
+    text = _INVISIBLE.sub("?", text)
     if text.isprintable():
         return text
     return "".join(c if c.isprintable() or c in keep else "?" for c in text)

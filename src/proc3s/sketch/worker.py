@@ -1,4 +1,4 @@
-"""Starts the untrusted side: `python -s -B worker.py MEMORY CPU_SECONDS`. Nothing of proc3s is imported."""
+"""Starts the untrusted side, without proc3s: `python -s -B worker.py MEMORY CPU_SECONDS LOCKED`."""
 
 import sys
 from importlib import import_module

@@ -137,9 +137,11 @@ def as_list(plan: Any, longest: int) -> Any:
 
 
 def shown(value: Any) -> str:
-    """A value in an error message."""
+    """A value in an error message; not a drawn number, so that many samples can share a message."""
     if isinstance(value, str):
         return repr(str.__str__(value)[:60])
+    if isinstance(value, float | np.floating) and isfinite(value):
+        return "a number"
     if value is None or isinstance(value, bool | float | np.generic):
         return str(value)[:60]
     if isinstance(value, int):
@@ -214,7 +216,7 @@ def _check(value: Any, param: Param) -> None:
         if not isfinite(number):
             raise Unfit(f"is {number}, expected a finite number")
         if param.type == "int" and not number.is_integer():
-            raise Unfit(f"is {number}, expected a whole number")
+            raise Unfit("must be a whole number")
 
 
 def _misnamed(value: Any, param: Param) -> str:

@@ -1,7 +1,8 @@
 """Locks the process it runs in: resource limits, no privileges, and a short seccomp allow-list.
 
 After `lock_down` the process computes, reads one pipe and writes two. It opens nothing, starts nothing and
-signals nobody. Everything it will ever import must have been imported before.
+signals nobody. Everything it will ever import must have been imported before. `restrain` is what is left
+for a user who insists on running programs where the kernel has no lock: it hinders, it does not hold.
 """
 
 import contextlib
@@ -10,6 +11,7 @@ import os
 import platform
 import resource
 import struct
+from collections.abc import Callable
 
 REQUESTS, REPLIES, TRACES = 3, 4, 5
 """The descriptors that stay open: requests to read, replies and stack traces to write."""
@@ -42,6 +44,8 @@ _PR_SET_PDEATHSIG, _PR_SET_DUMPABLE, _PR_SET_SECCOMP, _PR_SET_NO_NEW_PRIVS = 1, 
 _SIGKILL = 9
 _SECCOMP_MODE_FILTER = 2
 _CAPABILITY_VERSION_3 = 0x20080522
+_REFUSALS = (OSError, ValueError, AttributeError)
+"""What a missing or forbidden system call comes as."""
 
 
 class Unavailable(Exception):
@@ -54,15 +58,29 @@ def lock_down(memory: int, cpu_seconds: int) -> None:
     if machine not in _NUMBERS:
         raise Unavailable(f"no list of system calls for {machine} processors")
     try:
-        _limit_resources(memory, cpu_seconds)
-        _drop_privileges()
-        # the parent-death signal is forgotten when the user changes, so it comes after that
-        _prctl(_PR_SET_PDEATHSIG, _SIGKILL)
-        _prctl(_PR_SET_NO_NEW_PRIVS, 1)
-        _prctl(_PR_SET_DUMPABLE, 0)
+        for step in _steps(memory, cpu_seconds):
+            step()
         install(allow_list(machine))
-    except OSError as error:
+    except _REFUSALS as error:
         raise Unavailable(str(error)) from error
+
+
+def restrain(memory: int, cpu_seconds: int) -> None:
+    """All but the filter, each step as far as this system knows it."""
+    for step in _steps(memory, cpu_seconds):
+        with contextlib.suppress(*_REFUSALS):
+            step()
+
+
+def _steps(memory: int, cpu_seconds: int) -> list[Callable[[], None]]:
+    return [
+        lambda: _limit_resources(memory, cpu_seconds),
+        _drop_privileges,
+        # the parent-death signal is forgotten when the user changes, so it comes after that
+        lambda: _prctl(_PR_SET_PDEATHSIG, _SIGKILL),
+        lambda: _prctl(_PR_SET_NO_NEW_PRIVS, 1),
+        lambda: _prctl(_PR_SET_DUMPABLE, 0),
+    ]
 
 
 def allow_list(machine: str) -> list[bytes]:
@@ -137,9 +155,10 @@ def _limit_resources(memory: int, cpu_seconds: int) -> None:
         hard = resource.getrlimit(kind)[1]
         value = value if hard == resource.RLIM_INFINITY else min(value, hard)
         resource.setrlimit(kind, (value, value))
-    # at the soft limit a signal says why the process dies, at the hard limit it is killed without a word
-    _, hard = resource.getrlimit(resource.RLIMIT_CPU)
-    resource.setrlimit(resource.RLIMIT_CPU, (cpu_seconds, hard))
+    # the signal at the soft limit says why the process dies; it can be ignored, the hard limit cannot
+    hard = resource.getrlimit(resource.RLIMIT_CPU)[1]
+    most = cpu_seconds + 1 if hard == resource.RLIM_INFINITY else min(cpu_seconds + 1, hard)
+    resource.setrlimit(resource.RLIMIT_CPU, (min(cpu_seconds, most), most))
 
 
 def _drop_privileges() -> None:

@@ -45,6 +45,7 @@ def import_everything() -> tuple[str, ...]:
             importlib.import_module(name)
         available += ("shapely",)
     _settle_numpy()
+    _make_repeatable()
     return tuple(sorted(available))
 
 
@@ -53,13 +54,18 @@ def _settle_numpy() -> None:
     np.linalg.norm(np.array([1.0, 2.0]) @ np.eye(2))
     repr(np.zeros(2))
     warnings.simplefilter("ignore")
-    unseeded = np.random.default_rng
 
-    def default_rng(seed: Any = None) -> np.random.Generator:
-        # np.random itself is seeded for every sample
-        return unseeded(np.random.randint(2**32, dtype=np.uint64) if seed is None else seed)
 
-    np.random.default_rng = default_rng
+def _make_repeatable() -> None:
+    """Whoever asks for a random seed gets one from `random`, which is seeded for every sample."""
+    np.random.bit_generator.randbits = random.getrandbits  # type: ignore[attr-defined]
+    seed = random.Random.seed
+
+    def seed_from_random(self: random.Random, a: Any = None, version: int = 2) -> None:
+        seed(self, random.getrandbits(64) if a is None else a, version)
+
+    random.Random.seed = seed_from_random  # type: ignore[method-assign]
+    random.seed = types.MethodType(seed_from_random, random._inst)
 
 
 def new_module(name: str, names: dict[str, Any]) -> dict[str, Any]:
@@ -69,13 +75,16 @@ def new_module(name: str, names: dict[str, Any]) -> dict[str, Any]:
     return vars(module)
 
 
-def program_names(prelude: dict[str, Any], importable: tuple[str, ...]) -> dict[str, Any]:
-    """What a program may use without import; the names of the prelude win."""
+def program_names(prelude: dict[str, Any], importable: tuple[str, ...], friendly: bool) -> dict[str, Any]:
+    """What a program may use without import; the names of the prelude win.
+
+    `friendly` leaves out builtins that cannot work here and says what can be imported.
+    """
     names: dict[str, Any] = {"np": np, "numpy": np, "math": math, "random": random}
     names |= {name: getattr(typing, name) for name in _TYPING}
     names |= {"dataclass": dataclasses.dataclass, "field": dataclasses.field}
     names |= {name: value for name, value in prelude.items() if not name.startswith("__")}
-    return names | {"__builtins__": _builtins(importable)}
+    return names | {"__builtins__": _builtins(importable) if friendly else vars(builtins)}
 
 
 def _builtins(importable: tuple[str, ...]) -> dict[str, Any]:

@@ -1,5 +1,6 @@
 """The worker's main: lock down first, then load a program and answer rows with plans."""
 
+import contextlib
 import faulthandler
 import gc
 import io
@@ -12,7 +13,7 @@ from typing import Any, TextIO, cast
 
 from .encoding import Unfit
 from .loading import LoadError, Program, describe
-from .lock import REPLIES, REQUESTS, TRACES, Unavailable, lock_down
+from .lock import REPLIES, REQUESTS, TRACES, Unavailable, lock_down, restrain
 from .namespace import Output, import_everything
 from .wire import (
     ERROR,
@@ -30,15 +31,20 @@ from .wire import (
     UNAVAILABLE,
 )
 
+_RESERVE = 4 << 20
+
 
 def main() -> None:
-    """Serve requests until the other side closes the pipe. Arguments: memory in bytes, CPU seconds."""
-    memory, cpu_seconds = map(int, sys.argv[1:])
+    """Serve requests until the other side closes the pipe.
+
+    Arguments: memory in bytes, CPU seconds, and `locked` or `unlocked`.
+    """
+    memory, cpu_seconds = map(int, sys.argv[1:3])
     importable = import_everything()
-    _move_pipes()
     try:
-        lock_down(memory, cpu_seconds)
-    except Unavailable as error:
+        _move_pipes()
+        (lock_down if sys.argv[3] == "locked" else restrain)(memory, cpu_seconds)
+    except (Unavailable, OSError) as error:
         _write(_frame(0, UNAVAILABLE, str(error)))
         return
     sys.stdin = io.StringIO("")
@@ -54,7 +60,10 @@ def _move_pipes() -> None:
     nothing = os.open(os.devnull, os.O_RDWR)
     for standard in range(3):
         os.dup2(nothing, standard)
-    os.closerange(TRACES + 1, os.sysconf("SC_OPEN_MAX"))
+    for name in os.listdir("/proc/self/fd" if sys.platform == "linux" else "/dev/fd"):  # noqa: PTH208 - pathlib is not worth its import here
+        if int(name) > TRACES:
+            with contextlib.suppress(OSError):  # the listing itself
+                os.close(int(name))
     # the other side sends SIGUSR1 to learn which line hangs, even inside C code
     faulthandler.enable(TRACES, all_threads=False)
     faulthandler.register(signal.SIGUSR1, TRACES, all_threads=False, chain=False)
@@ -65,6 +74,8 @@ class Server:
 
     def __init__(self, importable: tuple[str, ...]) -> None:
         self.importable = importable
+        # given back to tell what happened when all memory is used up
+        self._reserve = bytearray(_RESERVE)
 
     def run(self) -> None:
         """Answer until the pipe closes."""
@@ -86,16 +97,14 @@ class Server:
         try:
             self.program = Program(request, self.importable)
         except LoadError as error:
-            cause = error.__cause__ or error
-            kind = "memory" if isinstance(cause, MemoryError) else error.stage
-            return _frame(0, ERROR, describe(cause, kind))
+            return _frame(0, ERROR, self._fault(error.__cause__ or error, error.stage))
         except BaseException as error:
-            return _frame(0, ERROR, describe(error, _kind(error)))
+            return _frame(0, ERROR, self._fault(error))
         self.columns = struct.Struct(f"<{max(1, len(self.program.parameters))}d")
         reply = _frame(0, LOADED, self._contents())
         if len(reply) <= request["frame"]:
             return reply
-        return _frame(0, ERROR, describe(Unfit("gen_domain holds too many values"), "contract"))
+        return _frame(0, ERROR, self._fault(Unfit("gen_domain holds too many values")))
 
     def _contents(self) -> dict[str, Any]:
         program = self.program
@@ -124,21 +133,23 @@ class Server:
                 size = len(numbers)
                 reply = REPLY.pack(sample, PLAN, size, size + len(columns)) + numbers + columns
             except BaseException as error:
-                reply = _frame(sample, ERROR, describe(error, _kind(error)))
+                reply = _frame(sample, ERROR, self._fault(error))
             if output.length:
                 reply = _frame(sample, LOG, output.take()) + reply
             _write(reply)
             sample += 1
 
+    def _fault(self, error: BaseException, stage: str = "runtime") -> dict[str, Any]:
+        if isinstance(error, Unfit):
+            return {"kind": "contract", "message": str(error), "line": None}
+        if isinstance(error, MemoryError):
+            self._reserve.clear()
+            stage = "memory"
+        return describe(error, stage)
+
     def _unfit(self, actions: Any, error: Exception) -> Unfit:
         text = next((text for text, _ in self.program.encoder.problems(actions)), None)
         return Unfit(text or f"the plan cannot be read: {error}")
-
-
-def _kind(error: BaseException) -> str:
-    if isinstance(error, Unfit):
-        return "contract"
-    return "memory" if isinstance(error, MemoryError) else "runtime"
 
 
 def _frame(sample: int, kind: int, content: Any) -> bytes:

@@ -18,6 +18,10 @@ READY, UNAVAILABLE, LOADED, PROBED, PLAN, ERROR, LOG = range(7)
 FILENAME = "<program>"
 """What tracebacks call the program."""
 MOST_PARAMETERS = 256
+MOST_VALUES = 1000
+"""Values of a list that is an argument of a sampler."""
+LONGEST_NAME = 100
+"""Characters of the name of a parameter."""
 MOST_PROBLEMS = 20
 """No more breaches of the contract than these are reported at once, to keep the reply small."""
 WIDTH = {"float": 1, "int": 1, "str": 1, "object": 1, "point": 3, "pose": 6, "grasp": 6}

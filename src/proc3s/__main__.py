@@ -1,0 +1,5 @@
+"""`python -m proc3s`."""
+
+from proc3s.cli import main
+
+main()
