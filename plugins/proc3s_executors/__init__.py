@@ -7,11 +7,18 @@ from proc3s import ExecutorSpec, hookimpl
 
 @hookimpl
 def register_executors(register: Callable[[ExecutorSpec], None]) -> None:
-    """One process, one plan after the other."""
+    """In this process, or in several."""
     register(
         ExecutorSpec(
             name="serial",
             summary="One plan after the other in this process.",
             target="proc3s_executors.serial:Serial",
+        )
+    )
+    register(
+        ExecutorSpec(
+            name="processes",
+            summary="Several worker processes on this machine (--jobs N), one world each.",
+            target="proc3s_executors.processes:Processes",
         )
     )

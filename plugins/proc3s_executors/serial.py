@@ -1,31 +1,30 @@
 """Rollouts one after the other in this process."""
 
 from collections.abc import Iterable, Iterator
-from typing import Any
 
-from proc3s import Domain, Plan, Problem, Trial, World, rollout
+from proc3s import Plan, Problem, Rollouts, Trial
 
 
 class Serial:
-    """Keeps one world, made when the first plan comes."""
+    """Keeps the world of one problem, made when the first plan comes; `jobs` changes nothing."""
 
-    def __init__(self) -> None:
-        self._domain: Domain | None = None
-        self._world: World[Any] | None = None
+    def __init__(self, jobs: int = 1) -> None:
+        self._problem: Problem | None = None
+        self._rollouts: Rollouts | None = None
 
     def map(self, problem: Problem, plans: Iterable[Plan]) -> Iterator[Trial]:
         """The trial of every plan, in order, computed when it is taken."""
         for plan in plans:
-            yield rollout(self._world_of(problem.domain), problem, plan)
+            yield self._of(problem)(plan)
 
-    def _world_of(self, domain: Domain) -> World[Any]:
-        if self._world is None or self._domain is not domain:
+    def _of(self, problem: Problem) -> Rollouts:
+        if self._rollouts is None or self._problem is not problem:
             self.close()
-            self._domain, self._world = domain, domain.make_world()
-        return self._world
+            self._problem, self._rollouts = problem, Rollouts(problem)
+        return self._rollouts
 
     def close(self) -> None:
         """Close the world."""
-        if self._world is not None:
-            self._world.close()
-            self._world = None
+        if self._rollouts is not None:
+            self._rollouts.close()
+            self._rollouts = None

@@ -18,9 +18,12 @@ if TYPE_CHECKING:
     from proc3s.llms import Message as Message
     from proc3s.llms import Request as Request
     from proc3s.llms import digest as digest
+    from proc3s.plugins import import_loose_file as import_loose_file
+    from proc3s.plugins import loose_files as loose_files
     from proc3s.problem import Problem as Problem
     from proc3s.problem import Trial as Trial
     from proc3s.problem import rollout as rollout
+    from proc3s.rollouts import Rollouts as Rollouts
     from proc3s.samplers import Sampler as Sampler
     from proc3s.samplers import Space as Space
     from proc3s.solving import Solver as Solver
@@ -32,6 +35,7 @@ if TYPE_CHECKING:
     from proc3s.specs import MethodSpec as MethodSpec
     from proc3s.specs import PresetSpec as PresetSpec
     from proc3s.specs import SamplerSpec as SamplerSpec
+    from proc3s.specs import ScreenSpec as ScreenSpec
     from proc3s.specs import SkillSpec as SkillSpec
     from proc3s.specs import SolverSpec as SolverSpec
     from proc3s.specs import TemplatesSpec as TemplatesSpec
@@ -51,6 +55,8 @@ _WHERE = {
     "executors": ("Executor",),
     "llms": ("Completion", "Message", "Request", "digest"),
     "problem": ("Problem", "Trial", "rollout"),
+    "plugins": ("import_loose_file", "loose_files"),
+    "rollouts": ("Rollouts",),
     "samplers": ("Sampler", "Space"),
     "solving": ("Solver",),
     "specfile": ("load_domain",),
@@ -62,6 +68,7 @@ _WHERE = {
         "MethodSpec",
         "PresetSpec",
         "SamplerSpec",
+        "ScreenSpec",
         "SkillSpec",
         "SolverSpec",
         "TemplatesSpec",

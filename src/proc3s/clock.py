@@ -9,9 +9,9 @@ from contextlib import contextmanager
 class Clock:
     """Adds up the seconds spent inside `with clock("stage"):`; child processes count once they ended."""
 
-    def __init__(self) -> None:
+    def __init__(self, *stages: str) -> None:
         self._begun = _now()
-        self.wall = {"llm": 0.0, "solve": 0.0, "execute": 0.0}
+        self.wall = dict.fromkeys(stages, 0.0)
         self.cpu = dict(self.wall)
 
     @contextmanager
@@ -31,8 +31,8 @@ class Clock:
 
 
 def _now() -> tuple[float, float]:
-    times = os.times()
-    return time.perf_counter(), times.user + times.system + times.children_user + times.children_system
+    children = os.times()
+    return time.perf_counter(), time.process_time() + children.children_user + children.children_system
 
 
 def _since(begun: tuple[float, float]) -> tuple[float, float]:

@@ -6,6 +6,7 @@ from typing import Any, Literal, TypeAlias
 
 from pydantic import BaseModel, ConfigDict
 
+from proc3s.audit import Findings
 from proc3s.feedback import Diagnosis
 from proc3s.llms import Completion, Message
 from proc3s.problem import Trial
@@ -101,6 +102,24 @@ class BatchEvaluated(Event):
 
 def _kind(trial: Trial, constraint: str | None) -> str | None:
     return type(trial.error).__name__ if trial.error else constraint
+
+
+class Audited(Event):
+    """Rejects of screens that were put to the world: how many, and those it accepts."""
+
+    event: Literal["audited"] = "audited"
+    round: int
+    checked: int
+    wrong: list[dict[str, Any]]
+
+    @classmethod
+    def of(cls, round_: int, findings: Findings) -> "Audited":
+        """The findings of one round."""
+        wrong = [
+            {"plan": [action.to_json() for action in plan], "rejected_for": violation.text}
+            for plan, violation in findings.wrong
+        ]
+        return cls(round=round_, checked=findings.checked, wrong=wrong)
 
 
 class RoundEnded(Event):

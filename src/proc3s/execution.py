@@ -6,10 +6,9 @@ from pathlib import Path
 from typing import Literal
 
 from proc3s.constraints import Violation
-from proc3s.errors import blame
 from proc3s.events import Emit, PlanExecuted
-from proc3s.problem import Problem, carry_out
-from proc3s.state import Plan, State
+from proc3s.problem import Problem, carry_out, judge
+from proc3s.state import Plan
 from proc3s.world import Score
 
 
@@ -58,16 +57,3 @@ def execute(
         )
     )
     return Execution(plan, executed, trial.violations, score, reason)
-
-
-def judge(problem: Problem, final: State, plan: Plan) -> tuple[Score | None, str]:
-    """All judges of the task must be satisfied; the reason of the first that is not, else of all."""
-    if problem.goal != problem.task.instruction:
-        return None, "nobody judges an instruction of your own"
-    with blame(f"judge of {problem.name}"):
-        scores = [target.load()(final, plan, **target.args) for target in problem.task.judge]
-    if not scores:
-        return None, "the task has no judge"
-    missed = [score for score in scores if not score.reached]
-    reason = missed[0].reason if missed else "; ".join(score.reason for score in scores)
-    return Score(not missed, reason), reason

@@ -34,10 +34,12 @@ class Setup:
     problem: Problem
     method: MethodSpec
     preset: PresetSpec
+    solver: str
     make_solver: MakeSolver
     executor: Executor
     limits: Limits = field(default_factory=Limits)
     locked: bool = True
+    audit: int = 0
     picture: Path | None = None
 
 

@@ -24,6 +24,7 @@ from proc3s.solving import Solver
 from proc3s.specfile import scalar, validate
 
 DEFAULT_LLM = "replay"
+DEFAULT_SOLVER = "rejection"
 DEFAULT_PRESET = "paper"
 
 
@@ -48,6 +49,10 @@ class RunOptions(specs.Spec):
     llm_options: dict[str, str] = Field(default_factory=dict)
     limits: dict[str, str] = Field(default_factory=dict)
     unsafe_exec: bool = False
+    jobs: int = Field(1, ge=1)
+    no_screens: bool = False
+    audit: int = Field(0, ge=0)
+    check_goal: bool | None = None
 
 
 def key_values(pairs: list[str]) -> dict[str, str]:
@@ -88,6 +93,8 @@ def make_problem(registry: Registry, options: RunOptions, goal_needed: bool = Tr
         goal=goal or "",
         seed=options.seed,
         samples=options.samples or budget[preset.budget],
+        check_goal=preset.check_goal if options.check_goal is None else options.check_goal,
+        screens="none" if options.no_screens else preset.screens,
     )
 
 
@@ -114,10 +121,12 @@ def _template_folders(registry: Registry, domain: Domain) -> list[Path]:
 def make_setup(registry: Registry, options: RunOptions, problem: Problem) -> Setup:
     """The parts of the second stage: solver, executor, method and preset."""
     method = select_method(registry, options)
-    solver = registry.get(specs.SolverSpec, options.solver or method.solver)
+    preset = registry.get(specs.PresetSpec, options.preset)
+    name = options.solver or method.solver or preset.solver or DEFAULT_SOLVER
+    solver = registry.get(specs.SolverSpec, name)
     solver_options = part_options(solver, options.solver_options)
     make = solver.load()
-    executor: Executor = registry.get(specs.ExecutorSpec, options.executor).load()()
+    executor: Executor = registry.get(specs.ExecutorSpec, options.executor).load()(jobs=options.jobs)
     problem.domain.require(problem.task)
 
     def make_solver(space: Space, budget: int, rng: np.random.Generator) -> Solver:
@@ -127,11 +136,13 @@ def make_setup(registry: Registry, options: RunOptions, problem: Problem) -> Set
     return Setup(
         problem=problem,
         method=method,
-        preset=registry.get(specs.PresetSpec, options.preset),
+        preset=preset,
+        solver=name,
         make_solver=make_solver,
         executor=executor,
         limits=make_limits(options.limits),
         locked=not options.unsafe_exec,
+        audit=options.audit,
     )
 
 

@@ -5,15 +5,17 @@ box (`sketch/`), a solver draws its open parameters (`solving.py`), every ground
 world (`problem.py`). If no sample is accepted, a diagnosis of the failures goes into the next question.
 """
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from proc3s.audit import Audit
 from proc3s.clock import Clock
 from proc3s.conversation import Exchange, Proposal, Propose
 from proc3s.errors import Interrupted, Proc3sError
 from proc3s.evaluation import Evaluator
-from proc3s.events import BatchEvaluated, Emit, ProgramExtracted, RoundEnded, SketchLoaded
+from proc3s.events import Audited, BatchEvaluated, Emit, ProgramExtracted, RoundEnded, SketchLoaded
 from proc3s.execution import Execution, execute
 from proc3s.feedback import Diagnosis, diagnose
 from proc3s.grounding import Opened, Repeatable, Setup, open_sketch
@@ -35,6 +37,7 @@ class Attempt:
     broken_off: Proc3sError | None = None
     samples: int = 0
     evaluations: int = 0
+    rejected_by: Mapping[str, int] = field(default_factory=dict)
     round: int = 0
 
 
@@ -51,7 +54,12 @@ class Outcome:
 
 def plan(setup: Setup, propose: Propose, emit: Emit) -> Outcome:
     """Ask, search, and ask again with feedback, until a plan is accepted or the rounds are used up."""
-    clock, proposals, attempts, history = Clock(), list[Proposal](), list[Attempt](), list[Exchange]()
+    clock, proposals, attempts, history = (
+        Clock("llm", "solve", "execute"),
+        list[Proposal](),
+        list[Attempt](),
+        list[Exchange](),
+    )
     execution, error = None, None
     try:
         for round_ in range(setup.method.rounds + 1):
@@ -93,7 +101,8 @@ def _attempt(setup: Setup, proposal: Proposal, emit: Emit) -> Attempt:
 
 def _search(setup: Setup, opened: Opened, round_: int, emit: Emit) -> Attempt:
     budget = {"none": 0, "one": 1, "budget": setup.problem.samples}[setup.method.samples]
-    evaluator = Evaluator(setup.problem, opened.sketch, setup.executor, Repeatable(setup))
+    audit = Audit(setup.audit, setup.problem.seed) if setup.audit else None
+    evaluator = Evaluator(setup.problem, opened.sketch, setup.executor, Repeatable(setup), audit)
     # A key of its own for every round, so that no search draws the numbers that made the scene.
     rng = np.random.default_rng(np.random.SeedSequence(setup.problem.seed, spawn_key=(round_,)))
     space = replace(opened.sketch.space, probe=lambda: influence(opened.sketch))
@@ -104,6 +113,8 @@ def _search(setup: Setup, opened: Opened, round_: int, emit: Emit) -> Attempt:
         budget,
         lambda trials: emit(BatchEvaluated.from_trials(round_, trials)) if trials else None,
     )
+    if audit and not search.broken_off:
+        emit(Audited.of(round_, audit.check(setup.problem, setup.executor)))
     return Attempt(
         diagnosis=diagnose(search.trials, search.halted),
         solution=search.solution,
@@ -111,6 +122,7 @@ def _search(setup: Setup, opened: Opened, round_: int, emit: Emit) -> Attempt:
         broken_off=search.broken_off,
         samples=evaluator.samples,
         evaluations=evaluator.evaluations,
+        rejected_by=dict(evaluator.rejected_by),
         round=round_,
     )
 

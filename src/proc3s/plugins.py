@@ -51,7 +51,7 @@ class PluginManager:
         loose = Path.cwd() / LOOSE_FILE
         found = [*([loose] if loose.is_file() else []), *files]
         for path in {path.resolve(): path for path in found}.values():
-            self._load(PluginStatus(path.stem, str(path)), partial(_import_file, path))
+            self._load(PluginStatus(path.stem, str(path)), partial(import_loose_file, path))
 
     def _load(self, status: PluginStatus, load: Callable[[], Any]) -> None:
         if status.name in self.statuses:
@@ -150,7 +150,14 @@ def _checked(spec: Any, hook: str) -> Spec:
     return spec
 
 
-def _import_file(path: Path) -> ModuleType:
+def loose_files() -> tuple[Path, ...]:
+    """The loose plugin files that this process has imported."""
+    modules = [m for m in sys.modules.values() if hasattr(m, _LOOSE)]
+    return tuple(dict.fromkeys(Path(str(module.__file__)) for module in modules))
+
+
+def import_loose_file(path: Path) -> ModuleType:
+    """Import a plugin from a file, importable by its stem. Raises UsageError if there is none."""
     if not path.is_file():
         raise UsageError(f"there is no file {path}")
     name = f"proc3s_loose_{path.stem}"

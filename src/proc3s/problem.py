@@ -1,24 +1,28 @@
 """The continuous constraint satisfaction problem as plain data, and the one pure function on it."""
 
+import dataclasses
 import hashlib
 import json
+from collections import OrderedDict
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, Literal
 
 from proc3s.constraints import Violation, check
 from proc3s.domain import Domain
-from proc3s.specs import TaskSpec
+from proc3s.errors import blame
+from proc3s.specs import ScreenSpec, TaskSpec
 from proc3s.state import Plan, State
-from proc3s.world import World
+from proc3s.world import Score, World
 
 
 @dataclass(frozen=True)
 class Problem:
     """A CCSP: a domain, an initial state, a goal in words, a program, a seed and a budget of samples.
 
-    It hashes, pickles and replays; `scene` is the initial state as JSON.
+    It hashes, pickles and replays; `scene` is the initial state as JSON. With `check_goal` a plan must
+    also satisfy the judges of the task. `screens` and `prefixes` switch off what only saves time.
     """
 
     domain: Domain
@@ -28,6 +32,9 @@ class Problem:
     seed: int
     samples: int
     program: str = ""
+    check_goal: bool = False
+    screens: Literal["all", "exact", "none"] = "all"
+    prefixes: bool = True
 
     @cached_property
     def initial(self) -> State:
@@ -46,6 +53,11 @@ class Problem:
     def __hash__(self) -> int:
         return hash((self.scene, self.program, self.goal, self.seed))
 
+    def active_screens(self, stateful: bool) -> tuple[ScreenSpec, ...]:
+        """The screens that may be used, of one of the two sorts."""
+        wanted = {"all": (True, False), "exact": (True,), "none": ()}[self.screens]
+        return tuple(s for s in self.domain.spec.screens if s.exact in wanted and s.stateful == stateful)
+
     def digest(self) -> str:
         """SHA-256 over everything that the verdict on a plan depends on."""
         spec = self.domain.spec.model_dump_json()
@@ -53,11 +65,44 @@ class Problem:
 
 
 @dataclass(frozen=True)
+class Prefix:
+    """The first steps of a plan, carried out without a violation: where they led, and their margins."""
+
+    snapshot: Any
+    state: State
+    margins: tuple[Mapping[str, float], ...]
+
+
+class Prefixes:
+    """The prefixes used last in one world and from one initial state, at most `size` of them."""
+
+    def __init__(self, size: int) -> None:
+        self._size = size
+        self._known: OrderedDict[Plan, Prefix] = OrderedDict()
+
+    def longest(self, plan: Plan) -> Prefix | None:
+        """The longest known beginning of a plan, but never the whole plan."""
+        for length in range(len(plan) - 1, 0, -1) if self._known else ():
+            if (found := self._known.get(plan[:length])) is not None:
+                self._known.move_to_end(plan[:length])
+                return found
+        return None
+
+    def keep(self, actions: Plan, prefix: Prefix) -> None:
+        """Remember a prefix; the one that was not used for longest goes."""
+        if self._size:
+            self._known[actions] = prefix
+            if len(self._known) > self._size:
+                self._known.popitem(last=False)
+
+
+@dataclass(frozen=True)
 class Trial:
     """The verdict on one sample: a plan rolled out, or the error of the program that made none.
 
     `reached` counts the steps before the first violation. `margins` holds, per step that was carried
-    out, the margin of every constraint that applies. `index` counts the samples of a problem from 0.
+    out, the margin of every constraint that applies. `screen` names the screen that rejected the plan.
+    `index` counts the samples of a problem from 0.
     """
 
     plan: Plan | None = None
@@ -65,6 +110,7 @@ class Trial:
     reached: int = 0
     margins: tuple[Mapping[str, float], ...] = ()
     error: Exception | None = None
+    screen: str | None = None
     index: int = 0
     u: tuple[float, ...] = ()
 
@@ -74,24 +120,37 @@ class Trial:
         return self.plan is not None and not self.violations
 
 
-def rollout(world: World[Any], problem: Problem, plan: Plan, stop: bool = True) -> Trial:
-    """Carry a plan out in a world and test every step; `stop` ends it at the first violating step.
+def rollout(world: World[Any], problem: Problem, plan: Plan, prefixes: Prefixes | None = None) -> Trial:
+    """Carry a plan out in a world up to its first violating step; the goal is the last step if it counts.
 
-    Pure: the verdict depends on the problem and the plan alone.
+    Pure: the verdict depends on the problem and the plan alone. `prefixes` saves time, and changes nothing.
     """
-    trial, _ = carry_out(world, problem, plan, stop)
-    return trial
+    trial, final = carry_out(world, problem, plan, prefixes=prefixes or Prefixes(0))
+    if not problem.check_goal or not trial.accepted:
+        return trial
+    score, reason = judge(problem, final, plan)
+    if score is None or score.reached:
+        return trial
+    miss = Violation("goal", len(plan), "goal", -1.0, reason)
+    return dataclasses.replace(trial, violations=(miss,))
 
 
-def carry_out(world: World[Any], problem: Problem, plan: Plan, stop: bool) -> tuple[Trial, State]:
-    """`rollout`, together with the state in which it ended."""
-    state = problem.initial
-    world.reset(state)
+def carry_out(
+    world: World[Any], problem: Problem, plan: Plan, stop: bool = True, prefixes: Prefixes | None = None
+) -> tuple[Trial, State]:
+    """The trial of a plan, and the state in which it ended; without `stop` it goes on after violations."""
+    prefixes = prefixes or Prefixes(0)
+    known = prefixes.longest(plan)
+    if known is None:
+        world.reset(problem.initial)
+        state, margins = problem.initial, []
+    else:
+        world.resume(known.snapshot)
+        state, margins = known.state, list(known.margins)
     violations: list[Violation] = []
-    margins: list[Mapping[str, float]] = []
     reached = len(plan)
-    for step, action in enumerate(plan):
-        transition = world.step(action)
+    for step in range(len(margins), len(plan)):
+        transition = world.step(plan[step])
         state = transition.after
         step_margins, found = check(problem.domain, transition, step)
         margins.append(step_margins)
@@ -100,4 +159,19 @@ def carry_out(world: World[Any], problem: Problem, plan: Plan, stop: bool) -> tu
             reached = min(reached, step)
             if stop:
                 break
+        else:
+            prefixes.keep(plan[: step + 1], Prefix(world.snapshot, state, tuple(margins)))
     return Trial(plan, tuple(violations), reached, tuple(margins)), state
+
+
+def judge(problem: Problem, final: State, plan: Plan) -> tuple[Score | None, str]:
+    """All judges of the task must be satisfied; the reason of the first that is not, else of all."""
+    if problem.goal != problem.task.instruction:
+        return None, "nobody judges an instruction of your own"
+    with blame(f"judge of {problem.name}"):
+        scores = [target.load()(final, plan, **target.args) for target in problem.task.judge]
+    if not scores:
+        return None, "the task has no judge"
+    missed = [score for score in scores if not score.reached]
+    reason = missed[0].reason if missed else "; ".join(score.reason for score in scores)
+    return Score(not missed, reason), reason

@@ -164,6 +164,20 @@ class ConstraintSpec(Target):
     """Domains that a plugin's constraint attaches to by itself; `*` is every domain."""
 
 
+class ScreenSpec(Target):
+    """A cheap test before the world: `target(state, batch)` gives a violation or None for every plan.
+
+    A screen may only reject, and what it says of a plan must not depend on the batch around it. A stateful
+    one is made once a world, `target(domain)`, and its `check(state, plan)` looks at one plan at a time.
+    """
+
+    name: str
+    exact: bool = False
+    """It rejects just what the world rejects, with the same violation."""
+    stateful: bool = False
+    """It keeps something expensive (a simulator), so it runs where the world runs."""
+
+
 class TaskSpec(Spec):
     """A task: an instruction, a scene, and judges that must all be satisfied."""
 
@@ -219,6 +233,8 @@ class DomainSpec(Spec):
     """Constraints in the order in which they are checked."""
     use: tuple[Identifier, ...] = ()
     """Names of further skills, samplers and constraints that plugins bring."""
+    screens: tuple[ScreenSpec, ...] = ()
+    """Cheap tests before the world, in order."""
     tasks: Annotated[dict[Identifier, TaskSpec], Named]
     """Tasks of this domain."""
     budget: dict[str, int]
@@ -257,8 +273,8 @@ class MethodSpec(Spec):
     """What is executed when nothing was accepted."""
     rounds: int = Field(0, ge=0)
     """Feedback rounds after the first answer."""
-    solver: str = "rejection"
-    """Solver, unless the command line names another."""
+    solver: str | None = None
+    """Solver that the method needs; the command line may still name another."""
 
 
 class PresetSpec(Spec):
@@ -273,6 +289,18 @@ class PresetSpec(Spec):
     """Style of the feedback template."""
     top: int = Field(2, ge=1)
     """How many of the commonest failures the feedback names."""
+    solver: str | None = None
+    """Solver where neither method nor command line names one."""
+    check_goal: bool = False
+    """Whether a plan must satisfy the judge to be accepted."""
+    screens: Literal["all", "exact", "none"] = "exact"
+    """Which screens may reject plans."""
+    repairs: int = Field(0, ge=0)
+    """Questions that a program with errors costs before it costs a feedback round."""
+    restart_after: int = Field(0, ge=0)
+    """Rounds without progress after which the LLM is shown its best program again; 0: never."""
+    state_constraints: bool = False
+    """Whether the prompt lists the constraints."""
 
 
 class SolverSpec(Target):

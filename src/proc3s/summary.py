@@ -1,6 +1,7 @@
 """The summary of a run: one flat document for people and programs."""
 
 import dataclasses
+from collections import Counter
 from pathlib import Path
 from typing import Any, Literal
 
@@ -53,7 +54,7 @@ def summarize(options: RunOptions, setup: Setup, outcome: Outcome, run_dir: Path
         method=setup.method.name,
         llm=None if sources == {"none"} else options.llm,
         llm_source=outcome.proposals[-1].source if outcome.proposals else "none",
-        solver=options.solver or setup.method.solver,
+        solver=setup.solver,
         preset=setup.preset.name,
         seed=options.seed,
         solved=execution is not None and execution.executed == "solution",
@@ -63,6 +64,7 @@ def summarize(options: RunOptions, setup: Setup, outcome: Outcome, run_dir: Path
         rounds=max(len(outcome.attempts) - 1, 0),
         samples=sum(attempt.samples for attempt in outcome.attempts),
         evaluations=sum(attempt.evaluations for attempt in outcome.attempts),
+        rejected_by=_rejected_by(outcome),
         seconds=_seconds(outcome.clock.wall, wall),
         cpu_seconds=_seconds(outcome.clock.cpu, cpu),
         plan=[action.to_json() for action in execution.plan] if execution else None,
@@ -71,6 +73,13 @@ def summarize(options: RunOptions, setup: Setup, outcome: Outcome, run_dir: Path
         run_dir=str(run_dir) if run_dir else None,
         error=str(outcome.error) if outcome.error else None,
     )
+
+
+def _rejected_by(outcome: Outcome) -> dict[str, int]:
+    total: Counter[str] = Counter()
+    for attempt in outcome.attempts:
+        total.update(attempt.rejected_by)
+    return dict(total)
 
 
 def _seconds(stages: dict[str, float], total: float) -> dict[str, float]:

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
 from proc3s.errors import blame
 from proc3s.state import Action, Plan, State
@@ -41,6 +41,9 @@ class World(Generic[T]):
     it exactly, so that a step from a loaded snapshot equals the same step in a replayed plan bit for bit.
     """
 
+    most_prefixes: ClassVar[int] = 256
+    """How many snapshots of beginnings of plans are kept; 0 where a step is cheaper than looking one up."""
+
     def __init__(self, domain: "Domain") -> None:
         self.domain = domain
         self.state: Any = None
@@ -50,6 +53,15 @@ class World(Generic[T]):
         """Put the world into a state."""
         self.place(state)
         self._snapshot = self.save()
+
+    @property
+    def snapshot(self) -> Any:
+        """What the next step starts from."""
+        return self._snapshot
+
+    def resume(self, snapshot: Any) -> None:
+        """Go on from a snapshot that an earlier step left."""
+        self._snapshot = snapshot
 
     def step(self, action: Action) -> Transition[T]:
         """Carry out one ground action from the snapshot of the step before."""

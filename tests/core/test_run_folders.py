@@ -130,7 +130,6 @@ def test_parents_are_made(tmp_path):
 
 def test_new_folders_do_not_collide(tmp_path):
     one = new_folder(tmp_path, "drawing/star", "proc3s", 3)
-    one.mkdir()
     two = new_folder(tmp_path, "drawing/star", "proc3s", 3)
     assert one.name.endswith("-drawing-star-proc3s-seed3")
     assert one != two

@@ -41,6 +41,19 @@ MethodOptions: TypeAlias = Annotated[
 SolverOptions: TypeAlias = Annotated[
     list[str] | None, typer.Option("-S", metavar="KEY=VALUE", help="option of the solver")
 ]
+Jobs: TypeAlias = Annotated[
+    int | None, typer.Option("--jobs", min=1, help="worker processes")
+]
+NoScreens: TypeAlias = Annotated[
+    bool, typer.Option("--no-screens", help="test every plan in the world, even hopeless ones")
+]
+AuditOption: TypeAlias = Annotated[
+    int | None, typer.Option("--audit", min=0, help="put N rejects of the screens to the world after all")
+]
+CheckGoal: TypeAlias = Annotated[
+    bool | None,
+    typer.Option("--check-goal/--no-check-goal", help="accept only plans that satisfy the judge"),
+]
 LimitOptions: TypeAlias = Annotated[
     list[str] | None,
     typer.Option("--limit", metavar="KEY=VALUE", help="limit of the box, e.g. call=2"),

@@ -10,6 +10,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from proc3s.events import (
     AnswerReceived,
+    Audited,
     BatchEvaluated,
     Event,
     PromptRendered,
@@ -79,6 +80,8 @@ class Console:
             self._loaded(event)
         elif isinstance(event, BatchEvaluated):
             self._sampled(event)
+        elif isinstance(event, Audited):
+            self._say(f"round {event.round}: audit: {len(event.wrong)} of {event.checked} rejects were wrong")
         elif isinstance(event, RoundEnded):
             self._diagnosis(event.round, event.diagnosis)
 

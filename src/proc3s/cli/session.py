@@ -37,6 +37,8 @@ def run_options(**given: Any) -> RunOptions:
         values["plugins"] = [path.resolve() for path in values["plugins"]]
     if "template_dir" in values:
         values["template_dir"] = values["template_dir"].resolve()
+    if values.get("jobs", 1) > 1:
+        values.setdefault("executor", "processes")
     return validate(RunOptions, values, "options")
 
 
