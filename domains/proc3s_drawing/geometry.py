@@ -1,6 +1,6 @@
 """The planar graph of a drawing: near ends merged, strokes split where they meet, closed outlines found."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
@@ -13,8 +13,8 @@ from proc3s.state import FloatArray
 
 Edge: TypeAlias = tuple[int, int]
 
-NEAR = 0.01 * 2**0.5  # in diameters: a gap that nobody sees, 1 % of the diagonal of the square around it all
-DOT = 0.001  # in diameters: shorter strokes are dots
+NEAR = 0.01 * 2**0.5  # in diameters: a gap that nobody sees, 1 % of the diagonal of the square around all
+DOT = 0.001  # in lengths of the longest stroke: shorter ones are dots
 FLAT = 12.0  # degrees: smaller turns of an outline are no corners
 TANGLED = 1000  # crossings beyond which nobody can read a drawing
 
@@ -81,30 +81,39 @@ def stroke_graph(lines: FloatArray) -> StrokeGraph:
     """
     strokes = _canonical(lines)
     ends = strokes.reshape(-1, 2)
-    tolerance = NEAR * _diameter(ends)
+    tolerance = NEAR * float(np.linalg.norm(ends[:, None] - ends, axis=2).max(initial=0.0))
+    meeting = _crossings(strokes)
+    if len(meeting) > TANGLED:
+        raise TangledError(f"too tangled to read: the strokes cross at {len(meeting)} points")
     feet = nearest_on_segment(ends[:, None], strokes[:, 0], strokes[:, 1])
     beside = np.linalg.norm(feet - ends[:, None], axis=2) <= tolerance
-    points = np.unique(np.concatenate([ends, feet[beside], _crossings(strokes)]), axis=0)
+    graph = _split(strokes, np.concatenate([meeting, feet[beside]]), tolerance)
+    closed = _gaps_closed(graph)
+    if closed.edges != graph.edges:
+        # What closes a gap may cross other strokes.
+        pieces = closed.nodes[np.array(sorted(closed.edges))]
+        graph = _split(pieces, _crossings(pieces), tolerance)
+    return _without_stubs(_without_doubles(graph))
+
+
+def _split(strokes: FloatArray, points: FloatArray, tolerance: float) -> StrokeGraph:
+    """Strokes, shape (n, 2, 2), cut at the points, shape (k, 2), that lie on them."""
+    points = np.unique(np.concatenate([strokes.reshape(-1, 2), points]), axis=0)
     labels, nodes = _distinct(points, 1e-3 * tolerance)
     edges: set[Edge] = set()
     for a, b in strokes:
         on = np.unique(labels[segment_distance(points, a, b) <= 1e-3 * tolerance])
         path = on[np.argsort((nodes[on] - a) @ (b - a), kind="stable")].tolist()
         edges.update(_edge(*pair) for pair in pairwise(path))
-    graph = _gaps_closed(StrokeGraph(nodes, frozenset(edges), tolerance))
-    return _forks_merged(_without_stubs(_without_doubles(graph)))
+    return StrokeGraph(nodes, frozenset(edges), tolerance)
 
 
 def _canonical(lines: FloatArray) -> FloatArray:
     """Strokes of shape (n, 2, 2), each from its smaller to its larger end, sorted, unique, no dots."""
-    sorted_ends = [sorted([(a, b), (c, d)]) for a, b, c, d in np.asarray(lines).tolist()]
-    strokes = np.unique(np.array(sorted_ends, dtype=np.float64).reshape(-1, 2, 2), axis=0)
+    pairs = [sorted([line[:2], line[2:]]) for line in lines.tolist()]
+    strokes = np.unique(np.reshape(pairs, (-1, 2, 2)), axis=0)
     length: FloatArray = np.linalg.norm(strokes[:, 1] - strokes[:, 0], axis=1)
-    return strokes[length > DOT * _diameter(strokes.reshape(-1, 2))]
-
-
-def _diameter(points: FloatArray) -> float:
-    return float(np.linalg.norm(points[:, None] - points[None], axis=2).max(initial=0.0))
+    return strokes[length > DOT * length.max(initial=0.0)]
 
 
 def _crossings(strokes: FloatArray) -> FloatArray:
@@ -116,10 +125,7 @@ def _crossings(strokes: FloatArray) -> FloatArray:
     det[np.abs(det) < 1e-9 * np.linalg.norm(r, axis=1) * np.linalg.norm(s, axis=1)] = np.nan
     t, u = cross(q - p, s) / det, cross(q - p, r) / det
     meet = (t >= 0) & (t <= 1) & (u >= 0) & (u <= 1)
-    found: FloatArray = p[meet] + t[meet, None] * r[meet]
-    if len(found) > TANGLED:
-        raise TangledError(f"too tangled to read: the strokes cross at {len(found)} points")
-    return found
+    return np.compress(meet, p + t[:, None] * r, axis=0)
 
 
 def _distinct(points: FloatArray, same: float) -> tuple[NDArray[np.int64], FloatArray]:
@@ -135,32 +141,36 @@ def _distinct(points: FloatArray, same: float) -> tuple[NDArray[np.int64], Float
 
 def _gaps_closed(graph: StrokeGraph) -> StrokeGraph:
     """Loose ends are joined to near loose ends, or else to one near node, unless a short path leads there."""
-    ends = graph.of_degree(1, 1)
+    ends, links = graph.of_degree(1, 1), {node: {*others} for node, others in graph.neighbours.items()}
     gap = np.linalg.norm(graph.nodes[ends][:, None] - graph.nodes[None], axis=2)
     close = np.argwhere(gap <= graph.tolerance)
     for k, node in close[np.argsort(gap[*close.T], kind="stable")].tolist():
         end, around = ends[k], set(np.flatnonzero(gap[k] <= 3 * graph.tolerance).tolist())
-        gaping = node in ends or len(graph.neighbours[end]) == 1
-        if gaping and node not in _reachable(graph, end, around):
-            graph = StrokeGraph(graph.nodes, graph.edges | {_edge(end, node)}, graph.tolerance)
-    return graph
+        gaping = node in ends or len(links[end]) == 1
+        if gaping and node not in _reachable(links, end, around):
+            links[end].add(node)
+            links[node].add(end)
+    edges = {_edge(node, other) for node, others in links.items() for other in others}
+    return StrokeGraph(graph.nodes, frozenset(edges), graph.tolerance)
 
 
 def _without_doubles(graph: StrokeGraph) -> StrokeGraph:
     """Of strokes drawn on top of each other, one remains: an edge goes if other edges lead along it."""
-    nodes = graph.nodes
+    nodes, links = graph.nodes, {node: {*others} for node, others in graph.neighbours.items()}
     for i, j in sorted(graph.edges, key=lambda edge: (-graph.length(edge), edge)):
         near = set(np.flatnonzero(segment_distance(nodes, nodes[i], nodes[j]) <= graph.tolerance).tolist())
-        beside = [node for node in graph.neighbours[i] if node in near and node != j]
-        if any(j in _reachable(graph, node, near - {i}) for node in beside):
-            graph = graph.without([(i, j)])
-    return graph
+        links[i].remove(j)
+        if j in _reachable(links, i, near):
+            links[j].remove(i)
+        else:
+            links[i].add(j)
+    return graph.without(edge for edge in graph.edges if edge[1] not in links[edge[0]])
 
 
-def _reachable(graph: StrokeGraph, start: int, allowed: set[int]) -> set[int]:
+def _reachable(links: Mapping[int, Collection[int]], start: int, allowed: set[int]) -> set[int]:
     todo, found = [start], {start}
     while todo:
-        new = allowed.intersection(graph.neighbours[todo.pop()]) - found
+        new = allowed.intersection(links[todo.pop()]) - found
         found |= new
         todo += new
     return found
@@ -181,16 +191,6 @@ def _without_stubs(graph: StrokeGraph) -> StrokeGraph:
         graph = graph.without(stubs)
 
 
-def _forks_merged(graph: StrokeGraph) -> StrokeGraph:
-    """Three shaky strokes that should meet in one point meet in two or three near by: these become one."""
-    forks = set(graph.of_degree(3))
-    short = {edge for edge in graph.edges if {*edge} <= forks and graph.length(edge) <= graph.tolerance}
-    near = StrokeGraph(graph.nodes, frozenset(short), graph.tolerance)
-    one = {node: min(_reachable(near, node, forks)) for node in near.neighbours}
-    edges = {_edge(one.get(i, i), one.get(j, j)) for i, j in graph.edges - near.edges}
-    return StrokeGraph(graph.nodes, frozenset((i, j) for i, j in edges if i != j), graph.tolerance)
-
-
 def outlines(graph: StrokeGraph) -> list[FloatArray]:
     """The outermost closed curves of the drawing, each a simple polygon (k, 2), counter-clockwise.
 
@@ -203,23 +203,23 @@ def outlines(graph: StrokeGraph) -> list[FloatArray]:
     while unseen:
         lowest = min(unseen, key=lambda node: (nodes[node][1], nodes[node][0]))
         loops += [nodes[loop] for loop in _outer_loops(core, lowest)]
-        unseen -= _reachable(core, lowest, unseen)
+        unseen -= _reachable(core.neighbours, lowest, unseen)
     wide = [loop for loop in loops if cross(loop, np.roll(loop, -1, axis=0)).sum() > graph.tolerance**2]
     return [a for a in wide if not any(inside((a[0] + a[1]) / 2, b) for b in wide if b is not a)]
 
 
 def _outer_loops(graph: StrokeGraph, start: int) -> list[list[int]]:
     """The simple loops on a walk around a component, the outside on the right, from its lowest node."""
-    loops, path, back, first = list[list[int]](), [start], np.array([0.0, -1.0]), -1
+    loops, path, last, first = list[list[int]](), [start], -1, -1
     while True:
         others = graph.neighbours[path[-1]]
-        # A hair less than no turn is the way back: the last resort.
-        turn = (angle_between(back, graph.nodes[others] - graph.nodes[path[-1]]) - 1e-9) % 360
-        step = others[int(turn.argmin())]
+        x, y = (graph.nodes[others] - graph.nodes[path[-1]]).T
+        order = [others[k] for k in np.argsort(np.arctan2(y, x), kind="stable")]
+        # Counter-clockwise from the way back comes the sharpest turn to the right.
+        step = order[(order.index(last) + 1) % len(order)] if last >= 0 else order[0]
         if path == [start] and step == first:
             return [loop for loop in loops if len(loop) > 2]
-        first = step if first < 0 else first
-        back = graph.nodes[path[-1]] - graph.nodes[step]
+        last, first = path[-1], step if first < 0 else first
         if step in path:
             loops.append(path[path.index(step) :])
             del path[path.index(step) :]

@@ -8,6 +8,7 @@ from proc3s.hookspecs import hookimpl
 if TYPE_CHECKING:
     from proc3s.constraints import Margin as Margin
     from proc3s.constraints import Violation as Violation
+    from proc3s.constraints import sentence as sentence
     from proc3s.domain import Domain as Domain
     from proc3s.errors import LLMError as LLMError
     from proc3s.errors import Pending as Pending
@@ -42,6 +43,7 @@ if TYPE_CHECKING:
     from proc3s.state import Action as Action
     from proc3s.state import FloatArray as FloatArray
     from proc3s.state import Plan as Plan
+    from proc3s.state import PlanBatch as PlanBatch
     from proc3s.state import Pose as Pose
     from proc3s.state import State as State
     from proc3s.world import Score as Score
@@ -49,7 +51,7 @@ if TYPE_CHECKING:
     from proc3s.world import World as World
 
 _WHERE = {
-    "constraints": ("Margin", "Violation"),
+    "constraints": ("Margin", "Violation", "sentence"),
     "domain": ("Domain",),
     "errors": ("LLMError", "Pending", "SpecError", "UsageError"),
     "executors": ("Executor",),
@@ -73,7 +75,7 @@ _WHERE = {
         "SolverSpec",
         "TemplatesSpec",
     ),
-    "state": ("Action", "FloatArray", "Plan", "Pose", "State"),
+    "state": ("Action", "FloatArray", "Plan", "PlanBatch", "Pose", "State"),
     "world": ("Score", "Transition", "World"),
 }
 _MODULES = {name: module for module, names in _WHERE.items() for name in names}

@@ -1,5 +1,6 @@
 """The audit: some of what screens rejected is put to the world after all, to see who was right."""
 
+import dataclasses
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -37,7 +38,8 @@ class Audit:
             self._chosen[place] = (plan(), violation)
 
     def check(self, problem: Problem, executor: Executor) -> Findings:
-        """Roll the chosen ones out."""
-        trials = executor.map(problem, [plan for plan, _ in self._chosen])
+        """Roll the chosen ones out without screens; a plan that only misses the goal was no violation."""
+        plain = dataclasses.replace(problem, screens="none", check_goal=False)
+        trials = executor.map(plain, [plan for plan, _ in self._chosen])
         pairs = zip(self._chosen, trials, strict=True)
         return Findings(len(self._chosen), tuple(chosen for chosen, trial in pairs if trial.accepted))

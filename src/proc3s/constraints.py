@@ -9,6 +9,7 @@ import numpy as np
 
 from proc3s.domain import Domain
 from proc3s.errors import Issue, SpecError, blame
+from proc3s.specs import ConstraintSpec
 from proc3s.world import Transition
 
 
@@ -53,7 +54,7 @@ def check(
             continue
         margins[name] = margin.value
         if margin.value < -spec.tolerance:
-            text = _sentence(name, spec.says, margin.details)
+            text = sentence(spec, margin.details)
             violations.append(Violation(name, step, transition.action.skill, margin.value, text))
     return margins, violations
 
@@ -71,9 +72,10 @@ def _margin(name: str, value: object) -> Margin | None:
     raise SpecError([Issue(f"constraint {name}", "target", message)])
 
 
-def _sentence(name: str, says: str, details: Mapping[str, str]) -> str:
+def sentence(spec: ConstraintSpec, details: Mapping[str, str]) -> str:
+    """The text of a violation of a constraint. Raises SpecError if a placeholder is left without a detail."""
     try:
-        return says.format_map(details)
+        return spec.says.format_map(details)
     except (KeyError, ValueError, IndexError, AttributeError) as error:
         message = f"the margin carries no detail {error} ({', '.join(details) or 'it carries none'})"
-        raise SpecError([Issue(f"constraint {name}", "says", message)]) from error
+        raise SpecError([Issue(f"constraint {spec.name}", "says", message)]) from error

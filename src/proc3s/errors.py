@@ -55,6 +55,9 @@ class SpecError(Proc3sError):
         self.issues = tuple(issues)
         super().__init__("\n".join(str(issue) for issue in self.issues))
 
+    def __reduce__(self) -> tuple[type["SpecError"], tuple[tuple[Issue, ...]]]:
+        return type(self), (self.issues,)  # crosses from worker processes as it is
+
 
 @contextmanager
 def blame(field: str) -> Iterator[None]:

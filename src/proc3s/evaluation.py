@@ -2,17 +2,21 @@
 
 import dataclasses
 import functools
+import inspect
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Container, Generator, Iterator, Sequence
+from contextlib import closing
 from typing import Protocol, TypeAlias
 
 from proc3s.audit import Audit
 from proc3s.clock import Clock
-from proc3s.errors import blame
+from proc3s.constraints import Violation
+from proc3s.errors import Issue, SpecError, blame
 from proc3s.executors import Executor
 from proc3s.problem import Problem, Trial
 from proc3s.samplers import Space
 from proc3s.sketch.errors import SketchError
+from proc3s.specs import ScreenSpec
 from proc3s.state import FloatArray, Plan, PlanBatch
 
 
@@ -39,8 +43,9 @@ class Evaluator:
     """Takes verdicts on samples of one problem. Equal plans are rolled out once.
 
     Vectorised screens see whole batches here, before any action is made; what they pass goes to the
-    executor. `samples` counts verdicts taken, `evaluations` rollouts, `rejected_by` rejections by screen.
-    `confirm` has the last word on a trial that the world accepts: it may return the error it becomes.
+    executor. `samples` counts verdicts taken, `evaluations` plans that a world was given, `rejected_by`
+    samples that a screen rejected, by its name; `audit` is offered those. `confirm` has the last word on a
+    trial that the world accepts: it may return the error it becomes.
     """
 
     def __init__(
@@ -56,8 +61,8 @@ class Evaluator:
         self._executor = executor
         self._confirm = confirm
         self._audit = audit
-        self._screens = [(spec, spec.load()) for spec in problem.active_screens(stateful=False)]
-        self._known: dict[Plan, Trial] = {}
+        self._screens = [BatchScreen(spec, problem) for spec in problem.active_screens(stateful=False)]
+        self._known: dict[bytes, Trial] = {}
         self.samples = 0
         self.evaluations = 0
         self.rejected_by: Counter[str] = Counter({spec.name: 0 for spec in problem.domain.spec.screens})
@@ -68,60 +73,96 @@ class Evaluator:
 
         Raises SketchError after the trials that were finished if the program had to be stopped.
         """
-        halted: SketchError | None = None
-        with self.clock("program"):
-            try:
-                batch = self._sketch.plans(u, self.samples)
-            except SketchError as error:
-                if error.done is None:
-                    raise
-                batch, halted = error.done, error
-        for trial, row in zip(self._trials(batch), u.tolist(), strict=False):
-            trial = dataclasses.replace(trial, index=self.samples, u=tuple(row))
-            self.samples += 1
-            if trial.screen is not None:
-                self.rejected_by[trial.screen] += 1
-            if trial.accepted and (refusal := self._confirm(trial)):
-                trial = Trial(error=refusal, index=trial.index, u=trial.u)
-            yield trial
+        batch, halted = self._plans(u)
+        settled = self._settled(batch, u)
+        # Actions are made when the executor takes a plan, so none are made far behind an accepted one.
+        with closing(self._verdicts(batch, settled)) as verdicts:
+            for i in range(len(batch)):
+                trial = settled.get(i) or self._rolled_out(_key(batch, i), verdicts, u[i])
+                self.samples += 1
+                if trial.screen is not None:
+                    self._rejected(trial, functools.partial(batch.plan, i))
+                elif trial.accepted and (refusal := self._confirm(trial)):
+                    trial = Trial(error=refusal, index=trial.index, u=trial.u)
+                yield trial
         if halted is not None:
             raise halted
 
-    def _trials(self, batch: PlanBatch) -> Iterator[Trial]:
-        # Actions are made when the executor takes a plan, so none are made behind an accepted one.
-        plan = functools.cache(batch.plan)
-        settled = self._screened(batch)
-        settled |= {i: Trial(error=error) for i, error in batch.errors.items()}
-        verdicts = self._executor.map(self.problem, self._fresh(batch, settled, plan))
-        for i in range(len(batch)):
-            if i in settled:
-                if self._audit and settled[i].screen:
-                    self._audit.offer(functools.partial(plan, i), settled[i].violations[0])
-                yield settled[i]
-                continue
-            if plan(i) not in self._known:
-                with self.clock("world"):
-                    self._known[plan(i)] = next(verdicts)
-                self.evaluations += 1
-            yield self._known[plan(i)]
+    def _plans(self, u: FloatArray) -> tuple[PlanBatch, SketchError | None]:
+        """The plans that the program finished, and what stopped it if something did."""
+        with self.clock("program"):
+            try:
+                return self._sketch.plans(u, self.samples), None
+            except SketchError as error:
+                if error.done is None:
+                    raise
+                return error.done, error
 
-    def _screened(self, batch: PlanBatch) -> dict[int, Trial]:
-        """Trials of the plans that a vectorised screen rejects; the first to do so gives the reason."""
+    def _settled(self, batch: PlanBatch, u: FloatArray) -> dict[int, Trial]:
+        """Trials of the samples that no world need see; the first screen to reject gives the reason."""
+        rows, first = u.tolist(), self.samples
         settled: dict[int, Trial] = {}
         with self.clock("screens"):
-            for spec, screen in self._screens:
-                with blame(f"screen {spec.name}"):
-                    verdicts = screen(self.problem.initial, batch, **spec.args)
-                for i, violation in enumerate(verdicts):
+            for screen in self._screens:
+                for i, violation in enumerate(screen(batch)):
                     if violation is not None and i not in settled:
-                        settled[i] = Trial(None, (violation,), violation.step, screen=spec.name)
+                        step, sample = violation.step, tuple(rows[i])
+                        settled[i] = Trial(
+                            None, (violation,), step, (), None, screen.name, first + i, sample
+                        )
+        for i, error in batch.errors.items():
+            settled[i] = Trial(error=error, index=first + i, u=tuple(rows[i]))
         return settled
 
-    def _fresh(
-        self, batch: PlanBatch, settled: Mapping[int, Trial], plan: Callable[[int], Plan]
-    ) -> Iterator[Plan]:
-        asked: set[Plan] = set()
-        for i in range(len(batch)):
-            if i not in settled and plan(i) not in self._known and plan(i) not in asked:
-                asked.add(plan(i))
-                yield plan(i)
+    def _rolled_out(self, key: bytes, verdicts: Iterator[Trial], row: FloatArray) -> Trial:
+        """The trial of a sample with this plan; `verdicts` are those of the plans not known yet."""
+        if key not in self._known:
+            with self.clock("world"):
+                self._known[key] = trial = next(verdicts)
+            self.evaluations += trial.screen is None
+        return dataclasses.replace(self._known[key], index=self.samples, u=tuple(row.tolist()))
+
+    def _verdicts(self, batch: PlanBatch, settled: Container[int]) -> Generator[Trial, None, None]:
+        """Trials of the plans that are not known yet, in order; closing it closes what the executor gave."""
+
+        def fresh() -> Iterator[Plan]:
+            asked: set[bytes] = set()
+            for i in range(len(batch)):
+                if i not in settled and (key := _key(batch, i)) not in self._known and key not in asked:
+                    asked.add(key)
+                    yield batch.plan(i)
+
+        yield from self._executor.map(self.problem, fresh())
+
+    def _rejected(self, trial: Trial, plan: Callable[[], Plan]) -> None:
+        assert trial.screen
+        self.rejected_by[trial.screen] += 1
+        if self._audit:
+            self._audit.offer(plan, trial.violations[0])
+
+
+def _key(batch: PlanBatch, i: int) -> bytes:
+    """The same for equal plans of one program, without making their actions."""
+    first, last = batch.start[i], batch.start[i + 1]
+    values = batch.values[batch.offset[first] : batch.offset[last]] + 0.0  # minus zero equals zero
+    return bytes(batch.skill[first:last].tobytes() + values.tobytes())
+
+
+class BatchScreen:
+    """A vectorised screen at work on one problem; it is given the domain if it has a parameter `domain`."""
+
+    def __init__(self, spec: ScreenSpec, problem: Problem) -> None:
+        self.name = spec.name
+        self._initial = problem.initial
+        self._check = spec.load()
+        wants = inspect.signature(self._check).parameters
+        self._args = spec.args | ({"domain": problem.domain} if "domain" in wants else {})
+
+    def __call__(self, batch: PlanBatch) -> Sequence[Violation | None]:
+        """A violation or None for every plan. Raises SpecError for anything else."""
+        with blame(f"screen {self.name}"):
+            verdicts: Sequence[Violation | None] = self._check(self._initial, batch, **self._args)
+            if len(verdicts) == len(batch):
+                return verdicts
+        message = f"gave {len(verdicts)} verdicts on {len(batch)} plans"
+        raise SpecError([Issue(f"screen {self.name}", "target", message)])

@@ -1,12 +1,18 @@
 """Feedback: what the trials of a round say about why it failed."""
 
-from collections import Counter
+import re
+from collections import Counter, defaultdict
 from collections.abc import Sequence
 
 from pydantic import BaseModel, ConfigDict
 
-from proc3s.problem import Trial
+from proc3s.problem import Problem, Trial
+from proc3s.samplers import Space
+from proc3s.separation import BoundHit, Separation, bound_hits, separations
 from proc3s.sketch.errors import SketchError
+
+_NUMBER = re.compile(r"-?\d+(\.\d+)?")
+_TEXTS = 3
 
 
 class Failure(BaseModel):
@@ -29,6 +35,22 @@ class Failure(BaseModel):
     """Percent of the samples, rounded to 5 so that the text is stable."""
 
 
+class ConstraintReport(BaseModel):
+    """How one constraint was violated over all samples."""
+
+    model_config = ConfigDict(frozen=True)
+
+    constraint: str
+    share: int
+    """Percent of the samples whose first violation it is, rounded to 5."""
+    steps: tuple[int, ...]
+    """Steps at which it was violated, from 0."""
+    texts: tuple[str, ...]
+    """Its commonest sentences."""
+    best_margin: float
+    """The margin of the nearest miss, in the constraint's unit; negative."""
+
+
 class Diagnosis(BaseModel):
     """Why a round did not end in an accepted plan; one object for the LLM, the console and the log."""
 
@@ -42,21 +64,64 @@ class Diagnosis(BaseModel):
     """Ways to fail, commonest first."""
     program_errors: tuple[Failure, ...] = ()
     """Why the program could not be used, or had to be stopped."""
+    constraints: tuple[ConstraintReport, ...] = ()
+    """The same failures by constraint, commonest first."""
+    never_violated: tuple[str, ...] = ()
+    """Constraints that no sample violated first."""
+    separations: tuple[Separation, ...] = ()
+    """Parameters whose values tell better samples from worse ones."""
+    bound_hits: tuple[BoundHit, ...] = ()
+    """Bounds of gen_domain that the better samples press against."""
+
+    @property
+    def progress(self) -> tuple[float, float]:
+        """How far the round got: furthest step, then the nearest miss."""
+        if not self.samples:
+            return (-1.0, 0.0)
+        return (self.reached, max((report.best_margin for report in self.constraints), default=0.0))
 
 
-def diagnose(trials: Sequence[Trial], error: SketchError | None = None) -> Diagnosis:
+def diagnose(
+    trials: Sequence[Trial],
+    error: SketchError | None = None,
+    problem: Problem | None = None,
+    space: Space | None = None,
+) -> Diagnosis:
     """Rank the first failures of trials; `error` is what ended the program, if something did.
 
-    Failures are counted as the paper does, by joint step, skill and sentence; ties keep plan order.
+    Failures are counted as the paper does, by joint step, skill and sentence; sentences that differ in
+    numbers only count as one, and ties keep plan order. `problem` and `space` name what never failed and
+    the parameters that matter.
     """
-    counts = Counter(_first_failure(trial) for trial in trials if not trial.accepted)
-    ranked = sorted(counts.items(), key=lambda item: (-item[1], item[0].step or 0, item[0].text))
+    failed = [trial for trial in trials if not trial.accepted]
+    reports = _by_constraint(failed)
+    names = list(problem.domain.spec.constraints) if problem else []
+    violated = {report.constraint for report in reports}
     return Diagnosis(
         samples=len(trials),
         reached=max((trial.reached for trial in trials), default=0),
-        failures=tuple(f.model_copy(update={"share": _percent(n, len(trials))}) for f, n in ranked),
+        failures=_ranked(failed, len(trials)),
         program_errors=_program_errors(error) if error else (),
+        constraints=reports,
+        never_violated=tuple(name for name in names if trials and name not in violated),
+        separations=separations(failed, space) if space else (),
+        bound_hits=bound_hits(failed, space) if space else (),
     )
+
+
+def _ranked(failed: Sequence[Trial], samples: int) -> tuple[Failure, ...]:
+    counts: Counter[tuple[object, ...]] = Counter()
+    firsts: dict[tuple[object, ...], Failure] = {}
+    for trial in failed:
+        failure = _first_failure(trial)
+        # Reasons of judges and messages of errors are full of numbers that differ from sample to sample.
+        exact = failure.step is not None and failure.kind != "goal"
+        text = failure.text if exact else _NUMBER.sub("#", failure.text)
+        key = (failure.kind, failure.step, failure.skill, failure.line, text)
+        counts[key] += 1
+        firsts.setdefault(key, failure)
+    ranked = sorted(counts, key=lambda key: (-counts[key], firsts[key].step or 0, firsts[key].text))
+    return tuple(firsts[k].model_copy(update={"share": _percent(counts[k], samples)}) for k in ranked)
 
 
 def _first_failure(trial: Trial) -> Failure:
@@ -64,11 +129,26 @@ def _first_failure(trial: Trial) -> Failure:
         first = trial.violations[0]
         return Failure(kind=first.constraint, text=first.text, step=first.step, skill=first.skill, share=0)
     assert isinstance(trial.error, SketchError)
-    return _failure(trial.error)
-
-
-def _failure(error: SketchError) -> Failure:
+    error = trial.error
     return Failure(kind=error.kind, text=error.message, line=error.line, source=error.source, share=0)
+
+
+def _by_constraint(failed: Sequence[Trial]) -> tuple[ConstraintReport, ...]:
+    found = defaultdict(list)
+    for trial in failed:
+        if trial.violations:
+            found[trial.violations[0].constraint].append(trial.violations[0])
+    reports = [
+        ConstraintReport(
+            constraint=name,
+            share=_percent(len(violations), len(failed)),
+            steps=tuple(sorted({violation.step for violation in violations})),
+            texts=tuple(text for text, _ in Counter(v.text for v in violations).most_common(_TEXTS)),
+            best_margin=max(violation.margin for violation in violations),
+        )
+        for name, violations in found.items()
+    ]
+    return tuple(sorted(reports, key=lambda report: (-report.share, report.constraint)))
 
 
 def _program_errors(error: SketchError) -> tuple[Failure, ...]:

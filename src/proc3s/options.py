@@ -25,7 +25,7 @@ from proc3s.specfile import scalar, validate
 
 DEFAULT_LLM = "replay"
 DEFAULT_SOLVER = "rejection"
-DEFAULT_PRESET = "paper"
+DEFAULT_PRESET = "best"
 
 
 class RunOptions(specs.Spec):

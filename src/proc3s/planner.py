@@ -43,13 +43,41 @@ class Attempt:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a run came to. `error` is why it could not be carried out to its end."""
+    """What a run came to. `rounds` counts feedback rounds; `error` is why it did not come to its end."""
 
     attempts: tuple[Attempt, ...]
     proposals: tuple[Proposal, ...]
+    rounds: int
     execution: Execution | None
     clock: Clock
     error: Proc3sError | None = None
+
+
+class Rounds:
+    """How many questions are left: the first, the feedback rounds, and repairs of unusable programs.
+
+    A program that never came to be sampled costs a repair before it costs a round, as many in a row as the
+    preset says.
+    """
+
+    def __init__(self, feedback: int, repairs: int) -> None:
+        self._feedback = feedback
+        self.left = feedback + 1
+        self._repairs = repairs if feedback else 0
+        self._repaired = 0
+
+    @property
+    def used(self) -> int:
+        """Feedback rounds so far; the first question is none."""
+        return min(self._feedback + 1 - self.left, self._feedback)
+
+    def spend(self, repair: bool) -> None:
+        """A question was answered in vain; `repair`: its program could not be used at all."""
+        if repair and self._repaired < self._repairs:
+            self._repaired += 1
+        else:
+            self.left -= 1
+            self._repaired = 0
 
 
 def plan(setup: Setup, propose: Propose, emit: Emit) -> Outcome:
@@ -60,19 +88,21 @@ def plan(setup: Setup, propose: Propose, emit: Emit) -> Outcome:
         list[Attempt](),
         list[Exchange](),
     )
+    rounds = Rounds(setup.method.rounds, setup.preset.repairs)
     execution, error = None, None
     try:
-        for round_ in range(setup.method.rounds + 1):
+        while rounds.left:
             prewarm(setup.limits, setup.locked)
             with clock("llm"):
-                proposals.append(propose(round_, history))
+                proposals.append(propose(len(history), history))
             with clock("solve"):
                 attempts.append(attempt := _attempt(setup, proposals[-1], emit))
             if attempt.broken_off:
                 raise attempt.broken_off
             if attempt.solution or (setup.method.samples == "none" and attempt.fallback):
                 break
-            emit(RoundEnded(round=round_, diagnosis=attempt.diagnosis))
+            rounds.spend(repair=not attempt.samples)
+            emit(RoundEnded(round=len(history), diagnosis=attempt.diagnosis))
             history.append(Exchange(proposals[-1].answer, attempt.diagnosis))
         with clock("execute"):
             execution = _execute(setup, attempts, emit)
@@ -80,7 +110,7 @@ def plan(setup: Setup, propose: Propose, emit: Emit) -> Outcome:
         error = reason
     except KeyboardInterrupt:
         error = Interrupted("interrupted")
-    return Outcome(tuple(attempts), tuple(proposals), execution, clock, error)
+    return Outcome(tuple(attempts), tuple(proposals), rounds.used, execution, clock, error)
 
 
 def _attempt(setup: Setup, proposal: Proposal, emit: Emit) -> Attempt:
@@ -116,7 +146,7 @@ def _search(setup: Setup, opened: Opened, round_: int, emit: Emit) -> Attempt:
     if audit and not search.broken_off:
         emit(Audited.of(round_, audit.check(setup.problem, setup.executor)))
     return Attempt(
-        diagnosis=diagnose(search.trials, search.halted),
+        diagnosis=diagnose(search.trials, search.halted, setup.problem, space),
         solution=search.solution,
         fallback=opened.plan if setup.method.fallback == "last_plan" else None,
         broken_off=search.broken_off,

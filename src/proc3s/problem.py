@@ -13,7 +13,7 @@ from proc3s.constraints import Violation, check
 from proc3s.domain import Domain
 from proc3s.errors import blame
 from proc3s.specs import ScreenSpec, TaskSpec
-from proc3s.state import Plan, State
+from proc3s.state import Action, Plan, State
 from proc3s.world import Score, World
 
 
@@ -64,7 +64,7 @@ class Problem:
         return hashlib.sha256(f"{spec}\n{self.scene}\n{self.program}".encode()).hexdigest()
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Prefix:
     """The first steps of a plan, carried out without a violation: where they led, and their margins."""
 
@@ -74,24 +74,30 @@ class Prefix:
 
 
 class Prefixes:
-    """The prefixes used last in one world and from one initial state, at most `size` of them."""
+    """The prefixes used last in one world and from one initial state, at most `size` of them.
+
+    A prefix is known by the one before it and its last action, so no action of a plan is hashed twice.
+    """
 
     def __init__(self, size: int) -> None:
         self._size = size
-        self._known: OrderedDict[Plan, Prefix] = OrderedDict()
+        self._known: OrderedDict[tuple[Prefix | None, Action], Prefix] = OrderedDict()
 
     def longest(self, plan: Plan) -> Prefix | None:
         """The longest known beginning of a plan, but never the whole plan."""
-        for length in range(len(plan) - 1, 0, -1) if self._known else ():
-            if (found := self._known.get(plan[:length])) is not None:
-                self._known.move_to_end(plan[:length])
-                return found
-        return None
+        found: Prefix | None = None
+        for action in plan[:-1] if self._known else ():
+            key = (found, action)
+            if (longer := self._known.get(key)) is None:
+                break
+            self._known.move_to_end(key)
+            found = longer
+        return found
 
-    def keep(self, actions: Plan, prefix: Prefix) -> None:
-        """Remember a prefix; the one that was not used for longest goes."""
+    def keep(self, before: Prefix | None, action: Action, prefix: Prefix) -> None:
+        """Remember where an action led; the prefix that was not used for longest goes."""
         if self._size:
-            self._known[actions] = prefix
+            self._known[before, action] = prefix
             if len(self._known) > self._size:
                 self._known.popitem(last=False)
 
@@ -159,8 +165,10 @@ def carry_out(
             reached = min(reached, step)
             if stop:
                 break
-        else:
-            prefixes.keep(plan[: step + 1], Prefix(world.snapshot, state, tuple(margins)))
+        elif not violations:
+            longer = Prefix(world.snapshot, state, tuple(margins))
+            prefixes.keep(known, plan[step], longer)
+            known = longer
     return Trial(plan, tuple(violations), reached, tuple(margins)), state
 
 

@@ -11,9 +11,10 @@ import jinja2
 from jinja2.sandbox import ImmutableSandboxedEnvironment
 
 from proc3s.errors import Issue, SpecError, UsageError, did_you_mean
-from proc3s.feedback import Diagnosis, Failure
+from proc3s.feedback import ConstraintReport, Diagnosis, Failure
 from proc3s.llms import Message, Role
 from proc3s.problem import Problem
+from proc3s.separation import BoundHit, Separation
 from proc3s.setup_code import setup_code
 from proc3s.specs import ExampleSpec, MethodSpec, PresetSpec
 from proc3s.state import State, source_text
@@ -38,10 +39,19 @@ class Prompter:
         """Render every template once, so that a mistake in one shows before an LLM is asked."""
         failure = Failure(kind="rehearsal", text="", step=0, skill="", line=1, source="", share=100)
         error = failure.model_copy(update={"step": None})
+        report = ConstraintReport(constraint="", share=100, steps=(0,), texts=("",), best_margin=-1.0)
+        failed = Diagnosis(
+            samples=1,
+            failures=(failure, error),
+            constraints=(report,),
+            never_violated=tuple(problem.domain.spec.constraints),
+            separations=(Separation(parameter="", low=0.0, high=1.0),),
+            bound_hits=(BoundHit(parameter="", bound=1.0, side="upper"),),
+        )
         self.system(problem)
         self.task(problem)
         tuple(self.examples(problem))
-        self.feedback(problem, Diagnosis(samples=1, failures=(failure, error)))
+        self.feedback(problem, failed, [failed])
         self.feedback(problem, Diagnosis(samples=0, program_errors=(error,)))
 
     def system(self, problem: Problem) -> Message:
@@ -64,9 +74,10 @@ class Prompter:
                 role: Role = "assistant" if kind == "answer" else "user"
                 yield Message(role=role, kind="example", text=turn)
 
-    def feedback(self, problem: Problem, diagnosis: Diagnosis) -> Message:
-        """What the LLM is told about a round that failed."""
-        text = self._render("feedback.j2", problem, diagnosis=diagnosis.model_dump())
+    def feedback(self, problem: Problem, diagnosis: Diagnosis, tried: Sequence[Diagnosis] = ()) -> Message:
+        """What the LLM is told about a round that failed, and about later tries that got no further."""
+        variables = {"diagnosis": diagnosis.model_dump(), "tried": [other.model_dump() for other in tried]}
+        text = self._render("feedback.j2", problem, **variables)
         return Message(role="user", kind="feedback", text=text)
 
     def _render(self, name: str, problem: Problem, **variables: Any) -> str:

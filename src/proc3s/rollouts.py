@@ -8,16 +8,17 @@ from proc3s.state import Plan
 
 
 class Rollouts:
-    """Gives the trial of a plan; executors make one in each of their workers."""
+    """Gives the trial of a plan; executors make one in each of their workers. Close it after use."""
 
     def __init__(self, problem: Problem) -> None:
         self._problem = problem
-        self._world = problem.domain.make_world()
-        self._prefixes = Prefixes(self._world.most_prefixes if problem.prefixes else 0)
         self._screens: list[tuple[str, Any]] = []
         for spec in problem.active_screens(stateful=True):
             with blame(f"screen {spec.name}"):
                 self._screens.append((spec.name, spec.load()(problem.domain, **spec.args)))
+        with blame("world"):
+            self._world = problem.domain.make_world()
+        self._prefixes = Prefixes(self._world.most_prefixes if problem.prefixes else 0)
 
     def __call__(self, plan: Plan) -> Trial:
         """The verdict of the first screen that rejects the plan, else of the world."""
@@ -26,8 +27,12 @@ class Rollouts:
                 violation = screen.check(self._problem.initial, plan)
             if violation is not None:
                 return Trial(plan, (violation,), violation.step, screen=name)
-        return rollout(self._world, self._problem, plan, self._prefixes)
+        with blame("world"):
+            return rollout(self._world, self._problem, plan, self._prefixes)
 
     def close(self) -> None:
-        """Close the world."""
+        """Close the world, and the screens that can be closed."""
+        for _, screen in self._screens:
+            if hasattr(screen, "close"):
+                screen.close()
         self._world.close()

@@ -107,7 +107,7 @@ def new_folder(parent: Path, task: str, method: str, seed: int) -> Path:
         except FileExistsError:
             continue
         except OSError as error:
-            raise UsageError(f"the run folder {parent / name} cannot be made: {error.strerror}") from error
+            raise UsageError(f"the run folder {parent / name} cannot be written: {error.strerror}") from error
         return parent / name
     raise AssertionError("itertools.count never ends")
 

@@ -158,6 +158,8 @@ class ConstraintSpec(Target):
     """Its key, where it stands in a mapping; a plugin gives it."""
     says: str
     """The sentence of a violation; `{…}` takes details that the margin carries."""
+    rule: str = ""
+    """The rule as a sentence, for prompts that list the constraints."""
     tolerance: float = Field(0.0, ge=0)
     """A margin down to minus this still counts as fulfilled, in the constraint's unit."""
     domains: tuple[str, ...] = ()

@@ -61,7 +61,7 @@ def summarize(options: RunOptions, setup: Setup, outcome: Outcome, run_dir: Path
         executed=execution.executed if execution else "none",
         goal_reached=execution.score.reached if execution and execution.score else None,
         goal_reason=execution.reason if execution else None,
-        rounds=max(len(outcome.attempts) - 1, 0),
+        rounds=outcome.rounds,
         samples=sum(attempt.samples for attempt in outcome.attempts),
         evaluations=sum(attempt.evaluations for attempt in outcome.attempts),
         rejected_by=_rejected_by(outcome),

@@ -20,8 +20,14 @@ def said(result):
         (["run", "drawing/star", "--llm", "replya"], ["LLM 'replya'", "did you mean 'replay'?"]),
         (["run", "drawing/star", "--preset", "papre"], ["preset 'papre'", "did you mean 'paper'?"]),
         (["run", "drawing/star", "--executor", "ray"], ["executor 'ray'", "serial"]),
-        (["run", "drawing/star", "-S", "frist=3"], ["rejection", "'frist'", "did you mean 'first'?"]),
-        (["run", "drawing/star", "-S", "first=many"], ["rejection", "first", "integer", "many"]),
+        (
+            ["run", "drawing/star", "--solver", "rejection", "-S", "frist=3"],
+            ["rejection", "'frist'", "did you mean 'first'?"],
+        ),
+        (
+            ["run", "drawing/star", "--solver", "rejection", "-S", "first=many"],
+            ["rejection", "first", "integer", "many"],
+        ),
         (["run", "drawing/star", "-L", "wait=1"], ["replay", "'wait'", "no options"]),
         (
             ["run", "drawing/star", "--llm", "manual:d", "-L", "wiat=0"],

@@ -111,7 +111,19 @@ def batches(here, run):
 
 
 def test_control_c_while_sampling(background, eventually, here, stub, events):
-    args = ("run", "drawing/star", "--samples", 5_000_000, "--llm", stub(LONG), "--out", "mine", "--json")
+    args = (
+        "run",
+        "drawing/star",
+        "--preset",
+        "paper",
+        "--samples",
+        5_000_000,
+        "--llm",
+        stub(LONG),
+        "--out",
+        "mine",
+        "--json",
+    )
     with background(*args) as process:
         eventually(lambda: batches(here, "mine") >= 3)
         process.send_signal(signal.SIGINT)
@@ -143,7 +155,18 @@ def test_kill_9_while_sampling_leaves_a_folder_that_can_be_read_and_replayed(
 ):
     from proc3s.runs import read_events
 
-    args = ("run", "drawing/star", "--samples", 5_000_000, "--llm", stub(LONG), "--out", "mine")
+    args = (
+        "run",
+        "drawing/star",
+        "--preset",
+        "paper",
+        "--samples",
+        5_000_000,
+        "--llm",
+        stub(LONG),
+        "--out",
+        "mine",
+    )
     with background(*args) as process:
         eventually(lambda: batches(here, "mine") >= 3)
         process.kill()
@@ -162,7 +185,7 @@ def test_kill_9_while_sampling_leaves_a_folder_that_can_be_read_and_replayed(
     assert not (here / "mine/summary.json").exists()
     again = cli("replay", "mine", "--samples", 100, "--json")
     assert (again.code, again.json["samples"]) == (1, 100)
-    prompt = cli("render-prompt", "drawing/star", "--diff", "mine")
+    prompt = cli("render-prompt", "drawing/star", "--preset", "paper", "--diff", "mine")
     assert (prompt.code, prompt.stdout) == (0, "")
 
 

@@ -16,7 +16,16 @@ def told(cli, stub, answers, here):
 
     def run(answer, *args):
         result = cli(
-            "run", "drawing/star", "--llm", stub(answer, answers.star), "--samples", "300", "--json", *args
+            "run",
+            "drawing/star",
+            "--preset",
+            "paper",
+            "--llm",
+            stub(answer, answers.star),
+            "--samples",
+            "300",
+            "--json",
+            *args,
         )
         assert result.code == 0, result.stdout
         assert result.json["rounds"] == 1
@@ -101,7 +110,19 @@ def test_a_sample_that_raises_is_a_failed_sample_not_the_end_of_the_round(told, 
 
 
 def test_errors_of_samples_stand_in_the_summary(cli, stub):
-    result = cli("run", "drawing/star", "--llm", stub(SOMETIMES), "--feedback", 0, "--samples", 400, "--json")
+    result = cli(
+        "run",
+        "drawing/star",
+        "--preset",
+        "paper",
+        "--llm",
+        stub(SOMETIMES),
+        "--feedback",
+        0,
+        "--samples",
+        400,
+        "--json",
+    )
     (error,) = result.json["program_errors"]
     assert set(error) == {"kind", "message", "line", "source", "share"}
     assert (error["kind"], error["line"], error["share"]) == ("SketchRuntimeError", 3, 30)
@@ -113,7 +134,19 @@ def test_errors_of_samples_stand_in_the_summary(cli, stub):
 
 def test_numbers_in_a_message_do_not_split_one_mistake_into_hundreds(cli, stub):
     answer = fence(PLAN + '    return [Action("draw_line", [1, 1, 2, (2 + x) * 1e9])]\n' + DOMAIN)
-    result = cli("run", "drawing/star", "--llm", stub(answer), "--feedback", 0, "--samples", 400, "--json")
+    result = cli(
+        "run",
+        "drawing/star",
+        "--preset",
+        "paper",
+        "--llm",
+        stub(answer),
+        "--feedback",
+        0,
+        "--samples",
+        400,
+        "--json",
+    )
     (error,) = result.json["program_errors"]
     assert error["share"] == 100
     assert "p2_y" in error["message"]
@@ -121,7 +154,9 @@ def test_numbers_in_a_message_do_not_split_one_mistake_into_hundreds(cli, stub):
 
 def test_a_solution_among_samples_that_raise_is_found(cli, stub):
     answer = SOMETIMES.replace("x < 0.3", "x > 0.1").replace("-5, 1", "1, 1")
-    result = cli("run", "drawing/free", "--goal", "a line", "--llm", stub(answer), "--json")
+    result = cli(
+        "run", "drawing/free", "--preset", "paper", "--goal", "a line", "--llm", stub(answer), "--json"
+    )
     assert result.code == 0
     assert result.json["samples"] > 1
 
@@ -133,7 +168,7 @@ def test_an_endless_loop_in_some_samples_ends_the_round_with_its_line(cli, stub,
         + '    return [Action("draw_line", [-5, 1, 2, 2])]\n'
         + DOMAIN
     )
-    result = cli("run", "drawing/star", "--llm", stub(hang, answers.star), "--json")
+    result = cli("run", "drawing/star", "--preset", "paper", "--llm", stub(hang, answers.star), "--json")
     assert (result.code, result.json["rounds"]) == (0, 1)
     text = (here / result.json["run_dir"] / "prompt-1.md").read_text().split("<!-- user: feedback -->")[1]
     assert "line 2 (`while x > 0.95:`)" in text or "line 3 (`pass`)" in text
@@ -141,7 +176,17 @@ def test_an_endless_loop_in_some_samples_ends_the_round_with_its_line(cli, stub,
 
 
 def test_an_unusable_last_answer_is_exit_code_1(cli, stub):
-    result = cli("run", "drawing/star", "--llm", stub("no code", fence("def f(:")), "--feedback", 1, "--json")
+    result = cli(
+        "run",
+        "drawing/star",
+        "--preset",
+        "paper",
+        "--llm",
+        stub("no code", fence("def f(:")),
+        "--feedback",
+        1,
+        "--json",
+    )
     assert result.code == 1
     assert (result.json["error"], result.json["plan"], result.json["samples"]) == (None, None, 0)
     assert [(e["kind"], e["line"]) for e in result.json["program_errors"]] == [("SketchSyntaxError", 1)]
@@ -156,7 +201,7 @@ def test_an_unusable_program_of_ones_own_is_exit_code_1(cli, here):
 
 
 def test_a_person_reads_why_without_json(cli, stub):
-    result = cli("run", "drawing/star", "--llm", stub(fence("def f(:")), "--feedback", 0)
+    result = cli("run", "drawing/star", "--preset", "paper", "--llm", stub(fence("def f(:")), "--feedback", 0)
     assert result.code == 1
     assert "unsolved" in result.stdout
     assert "line 1: def f(:" in result.stderr
@@ -164,7 +209,9 @@ def test_a_person_reads_why_without_json(cli, stub):
 
 def test_markup_of_an_answer_is_not_ours(cli, stub):
     answer = fence(PLAN + "    raise ValueError('[bold red]x[/] [/nothing]')\n" + DOMAIN)
-    result = cli("run", "drawing/star", "--llm", stub(answer), "--feedback", 0, "--samples", 5)
+    result = cli(
+        "run", "drawing/star", "--preset", "paper", "--llm", stub(answer), "--feedback", 0, "--samples", 5
+    )
     assert result.code == 1
     assert "[bold red]x[/]" in result.stderr
 
@@ -173,14 +220,16 @@ def test_markup_of_an_answer_is_not_ours(cli, stub):
     "text", ["größer ✓ 星", "a\u2028b", "lone \ud800 surrogate", "nul \0 and \x1b[31m red"]
 )
 def test_any_text_in_an_answer_is_kept(cli, stub, answers, here, text):
-    result = cli("run", "drawing/star", "--llm", stub(text + answers.star), "--json")
+    result = cli("run", "drawing/star", "--preset", "paper", "--llm", stub(text + answers.star), "--json")
     assert result.code == 0
     again = cli("replay", result.json["run_dir"], "--json")
     assert (again.code, again.json["plan"]) == (0, result.json["plan"])
 
 
 def test_the_llm_failing_in_a_later_round_keeps_what_there_is(cli, stub, answers, here):
-    result = cli("run", "drawing/star", "--llm", stub(answers.outside), "--samples", 40, "--json")
+    result = cli(
+        "run", "drawing/star", "--preset", "paper", "--llm", stub(answers.outside), "--samples", 40, "--json"
+    )
     assert result.code == 3
     summary = result.json
     assert "none for round 1" in summary["error"]

@@ -83,7 +83,20 @@ def test_a_task_without_an_instruction_needs_a_goal(cli):
 def failed_run(cli, stub, answers):
     """A run of three rounds that all failed."""
     llm = stub(answers.outside, "no code", answers.outside.replace("-1, 1", "1, -1"))
-    result = cli("run", "drawing/star", "--feedback", 2, "--samples", 30, "--llm", llm, "--out", "failed")
+    result = cli(
+        "run",
+        "drawing/star",
+        "--preset",
+        "paper",
+        "--feedback",
+        2,
+        "--samples",
+        30,
+        "--llm",
+        llm,
+        "--out",
+        "failed",
+    )
     assert result.code == 1
     return "failed"
 

@@ -70,6 +70,8 @@ def test_a_fallback_of_an_earlier_round_than_the_last(cli, stub, answers):
         *(
             "run",
             "drawing/star",
+            "--preset",
+            "paper",
             "--method",
             "llm3",
             "--feedback",

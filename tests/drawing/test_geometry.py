@@ -65,20 +65,19 @@ def test_tolerance_is_one_percent_of_the_diagonal_of_a_square():
         pytest.param([(0, 0, 10, 0), (5, -0.1, 5, 8)], {1: 3, 3: 1}, id="T that overshoots"),
         pytest.param([(0, 0, 10, 0), (5, 0.5, 5, 8)], {1: 4}, id="T too short"),
         pytest.param([(0, 0, 10, 0), (5, -0.5, 5, 8)], {1: 4, 4: 1}, id="T too long"),
-        pytest.param([(0, 0, 10, 0), (10, 0, 10, 10)], {1: 2, 2: 1}, id="corner"),
-        pytest.param([(0, 0, 9.9, 0), (10, 0.05, 10, 10)], {1: 2, 2: 2}, id="corner with a gap"),
-        pytest.param([(0, 0, 10.1, 0), (10, -0.1, 10, 10)], {1: 2, 2: 1}, id="corner that overshoots"),
-        pytest.param([(0, 0, 6, 0), (4, 0, 10, 0)], {1: 2, 2: 2}, id="overlap"),
+        pytest.param([(0, 0, 10, 0), (10, 0, 10, 10)], {1: 2}, id="corner"),
+        pytest.param([(0, 0, 9.9, 0), (10, 0.05, 10, 10)], {1: 2}, id="corner with a gap"),
+        pytest.param([(0, 0, 10.1, 0), (10, -0.1, 10, 10)], {1: 2}, id="corner that overshoots"),
+        pytest.param([(0, 0, 6, 0), (4, 0, 10, 0)], {1: 2}, id="overlap"),
         pytest.param([(0, 0, 10, 0), (10, 0, 0, 0)], {1: 2}, id="there and back"),
         pytest.param([(0, 0, 10, 0), (0, 0.05, 10, -0.05)], {1: 2}, id="drawn twice, shaky"),
-        pytest.param([(0, 0, 10, 0), (3, 0, 5, 0)], {1: 2, 2: 2}, id="part drawn twice"),
+        pytest.param([(0, 0, 10, 0), (3, 0, 5, 0)], {1: 2}, id="part drawn twice"),
         pytest.param([(0, 0, 10, 0), (0, 3, 10, 3)], {1: 4}, id="parallels"),
     ],
 )
-def test_degrees_of_nodes(lines, degrees):
+def test_loose_ends_and_forks(lines, degrees):
     found = degrees_of(graph_of(*lines))
-    found.pop(2, None), degrees.pop(2, None)
-    assert found == degrees
+    assert {degree: count for degree, count in found.items() if degree != 2} == degrees
 
 
 def test_three_shaky_strokes_that_meet_make_one_fork():
@@ -93,13 +92,10 @@ def test_acute_corner_is_not_zipped_up():
     assert len(outlines(graph)) == 1
 
 
-@given(
-    st.permutations(SQUARE + [(0, 0, 10, 10), (5, 5, 20, 5)]), st.lists(st.booleans(), min_size=6, max_size=6)
-)
+@settings(deadline=None)
+@given(st.permutations([*SQUARE, (0, 0, 10, 10), (5, 5, 20, 5)]), st.integers(0, 2**6 - 1))
 def test_graph_does_not_depend_on_order_and_direction(lines, flips):
-    graph = graph_of(
-        *(line[2:] + line[:2] if flip else line for line, flip in zip(lines, flips, strict=True))
-    )
+    graph = graph_of(*(line[2:] + line[:2] if flips >> i & 1 else line for i, line in enumerate(lines)))
     expected = graph_of(*SQUARE, (0, 0, 10, 10), (5, 5, 20, 5))
     assert graph.edges == expected.edges
     assert np.array_equal(graph.nodes, expected.nodes)
@@ -107,8 +103,8 @@ def test_graph_does_not_depend_on_order_and_direction(lines, flips):
 
 def test_chains_run_from_fork_to_end():
     graph = graph_of((0, 0, 5, 0), (5, 0, 10, 0), (10, 0, 14, 3), (10, 0, 14, -3))
-    ends = sorted((tuple(graph.nodes[chain[0]]), tuple(graph.nodes[chain[-1]])) for chain in graph.chains)
-    assert ends == [((0, 0), (10, 0)), ((14, -3), (10, 0)), ((14, 3), (10, 0))]
+    ends = [{tuple(graph.nodes[node].tolist()) for node in (chain[0], chain[-1])} for chain in graph.chains]
+    assert sorted(map(sorted, ends)) == [[(0, 0), (10, 0)], [(10, 0), (14, -3)], [(10, 0), (14, 3)]]
     assert graph.length(max(graph.chains, key=graph.length)) == pytest.approx(10)
     assert graph_of(*SQUARE).chains == []
 
@@ -211,7 +207,7 @@ def test_turns_add_up_to_a_full_one():
 
 @pytest.mark.parametrize(
     ("point", "is_in"),
-    [((1, 1), True), ((9, 9), True), ((5, 8), False), ((-1, 5), False), ((11, 5), False), ((5, 1), True)],
+    [((1, 1), True), ((9.8, 9), True), ((5, 8), False), ((-1, 5), False), ((11, 5), False), ((5, 1), True)],
 )
 def test_inside_a_polygon_with_a_notch(point, is_in):
     ring = np.array([[0, 0], [10, 0], [10, 10], [5, 2], [0, 10]], dtype=float)
@@ -226,13 +222,12 @@ def test_inside_a_polygon_with_a_notch(point, is_in):
         ((2, 0), 3),
         ((-1, 0), math.inf),
         ((0, 1), math.inf),
-        ((1, 0.2), 3.1486),
-        ((1, 1), math.inf),
+        ((24, 7), 4.8 - 2.04**0.5),
     ],
 )
 def test_ray_meets_a_circle(direction, way):
     found = ray_to_circle(np.zeros(2), np.array(direction, dtype=float), np.array([5.0, 0.0]), 2.0)
-    assert found == pytest.approx(way, abs=1e-3)
+    assert found == pytest.approx(way)
 
 
 def test_ray_from_inside_a_circle_meets_it_at_once():

@@ -319,7 +319,7 @@ NO_ARROWS = {
     "lopsided angles": (arrow(15, 8, 60), "lopsided"),
     "lopsided lengths": (arrow(30, 4, 30, 12), "lopsided"),
     "head longer than the shaft": (arrow(30, 60), "on the same side"),
-    "head nearly as long as the arrow": (arrow(12, 36), "how far the head leads back"),
+    "head nearly as long as the arrow": (arrow(12, 30), "how far the head leads back"),
     "head that nobody sees": (arrow(40, 1.5), "too short to see|no head"),
     "head hugs the shaft": (arrow(5, 30), "lead off at 5 and 5"),
     "bent shaft": (path((20, 30), (40, 50), (60, 50)) + ARROW[1:], "bends at (40.0, 50.0)"),
@@ -661,6 +661,15 @@ def test_a_star_without_one_stroke_is_open(data, seed):
     lines = data.draw(st.sampled_from([strokes_star(n, 2), ring(outline(n, 0.4))]))
     del lines[seed % len(lines)]
     assert "not closed" in is_star(drawing(lines), ()).reason
+
+
+@judges
+@settings(max_examples=30, deadline=None)
+@given(n=st.integers(0, 25), jitter=st.sampled_from([0.0, 0.05, 0.3]), seed=st.integers(0, 2**32 - 1))
+def test_every_scribble_gets_a_verdict(judge, n, jitter, seed):
+    rng = np.random.default_rng(seed)
+    lines = rng.integers(0, 6, (n, 4)) * 20 + rng.normal(0, 1, (n, 4)) * jitter
+    assert judge(drawing(lines.tolist(), PAIR), ()).reason
 
 
 @judges

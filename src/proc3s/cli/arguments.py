@@ -13,7 +13,7 @@ Llm: TypeAlias = Annotated[
 Method: TypeAlias = Annotated[str | None, typer.Option("--method", help="see `proc3s list methods`")]
 Solver: TypeAlias = Annotated[str | None, typer.Option("--solver", help="see `proc3s list solvers`")]
 Preset: TypeAlias = Annotated[
-    str | None, typer.Option("--preset", help="what method and command line leave open  [default: paper]")
+    str | None, typer.Option("--preset", help="what method and command line leave open  [default: best]")
 ]
 ExecutorName: TypeAlias = Annotated[
     str | None, typer.Option("--executor", help="see `proc3s list executors`")
@@ -41,9 +41,7 @@ MethodOptions: TypeAlias = Annotated[
 SolverOptions: TypeAlias = Annotated[
     list[str] | None, typer.Option("-S", metavar="KEY=VALUE", help="option of the solver")
 ]
-Jobs: TypeAlias = Annotated[
-    int | None, typer.Option("--jobs", min=1, help="worker processes")
-]
+Jobs: TypeAlias = Annotated[int | None, typer.Option("--jobs", min=1, help="worker processes")]
 NoScreens: TypeAlias = Annotated[
     bool, typer.Option("--no-screens", help="test every plan in the world, even hopeless ones")
 ]
