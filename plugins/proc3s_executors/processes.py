@@ -2,20 +2,36 @@
 
 import itertools
 import multiprocessing
+import os
 import pickle
+import signal
+import threading
+import time
 from collections import deque
 from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
-from functools import lru_cache
+from dataclasses import dataclass
 from pathlib import Path
 
 from proc3s import Plan, Problem, Rollouts, Trial, UsageError, loose_files
 
-_CHUNKS_PER_WORKER = 4
+_CHUNK_SECONDS = 0.02
+"""Work that goes to a worker at once: long against sending it, short to wait for when nobody needs it."""
 _MOST_PLANS = 64
-"""Largest chunk: a plan that is accepted early should not wait behind many that nobody needs."""
+_AHEAD = 2
+"""Chunks under way for each worker."""
 _MOST_RESTARTS = 5
+"""So often in a row may workers die without a result in between."""
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What a worker made of a chunk: trials up to the error that stopped it, if one did."""
+
+    trials: list[Trial]
+    error: Exception | None
+    seconds: float
 
 
 class Processes:
@@ -29,31 +45,45 @@ class Processes:
         self._jobs = jobs
         self._pool: ProcessPoolExecutor | None = None
         self._restarts = 0
+        self._plans_per_chunk = 1
 
     def map(self, problem: Problem, plans: Iterable[Plan]) -> Iterator[Trial]:
-        """The trial of every plan, in order; chunks ahead of the one taken are under way."""
-        waiting = _chunks(list(plans), self._jobs)
-        key = pickle.dumps(problem)
-        running: deque[tuple[Sequence[Plan], Future[list[Trial]]]] = deque()
+        """The trial of every plan, in order; plans are taken a few chunks ahead of the trial taken."""
+        plans, key = iter(plans), pickle.dumps(problem)
+        self._plans_per_chunk = 1
+        running: deque[tuple[Sequence[Plan], Future[Answer]]] = deque()
         try:
-            while waiting or running:
-                while waiting and len(running) < 2 * self._jobs:
-                    chunk = waiting.popleft()
+            while True:
+                while len(running) < _AHEAD * self._jobs and (chunk := self._next_chunk(plans)):
                     running.append((chunk, self._submit(key, chunk)))
+                if not running:
+                    return
                 try:
-                    trials = running[0][1].result()
+                    answer = running[0][1].result()
                 except BrokenProcessPool:
                     self._restart()
-                    waiting.extendleft(chunk for chunk, _ in reversed(running))
-                    running.clear()
+                    running = deque((chunk, self._submit(key, chunk)) for chunk, _ in running)
                     continue
                 running.popleft()
-                yield from trials
+                self._learn(answer)
+                yield from answer.trials
+                if answer.error is not None:
+                    raise answer.error
         finally:
             for _, future in running:
                 future.cancel()
 
-    def _submit(self, key: bytes, chunk: Sequence[Plan]) -> "Future[list[Trial]]":
+    def _next_chunk(self, plans: Iterator[Plan]) -> list[Plan]:
+        return list(itertools.islice(plans, self._plans_per_chunk))
+
+    def _learn(self, answer: Answer) -> None:
+        """Chunks grow towards a fixed time; their size decides nothing but how long things take."""
+        self._restarts = 0
+        if answer.trials:
+            fitting = int(_CHUNK_SECONDS * len(answer.trials) / max(answer.seconds, 1e-6))
+            self._plans_per_chunk = max(1, min(fitting, 2 * self._plans_per_chunk, _MOST_PLANS))
+
+    def _submit(self, key: bytes, chunk: Sequence[Plan]) -> "Future[Answer]":
         if self._pool is None:
             context = multiprocessing.get_context("spawn")
             files = loose_files()
@@ -61,7 +91,7 @@ class Processes:
         try:
             return self._pool.submit(_evaluate, key, chunk)
         except BrokenProcessPool as error:
-            broken: Future[list[Trial]] = Future()
+            broken: Future[Answer] = Future()
             broken.set_exception(error)
             return broken
 
@@ -73,41 +103,59 @@ class Processes:
         self.close()
 
     def close(self) -> None:
-        """End the workers."""
+        """End the workers; each finishes the chunk that it works on."""
         if self._pool is not None:
             self._pool.shutdown(cancel_futures=True)
             self._pool = None
 
 
-def _chunks(plans: list[Plan], jobs: int) -> deque[Sequence[Plan]]:
-    """Small chunks first: the accepted plan is often an early one."""
-    size = max(1, min(_MOST_PLANS, len(plans) // (jobs * _CHUNKS_PER_WORKER)))
-    sizes = itertools.chain((1,) * jobs, itertools.repeat(size))
-    chunks: deque[Sequence[Plan]] = deque()
-    at = 0
-    for size in sizes:
-        if at >= len(plans):
-            return chunks
-        chunks.append(plans[at : at + size])
-        at += size
-    return chunks
-
-
 def _begin(files: tuple[Path, ...]) -> None:
-    """Loose plugin files are importable in a worker as they are in the parent."""
+    """A worker leaves Ctrl-C to the parent, ends with it, and has its loose plugin files."""
     from proc3s import import_loose_file
 
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    threading.Thread(target=_end_with_parent, daemon=True).start()
     for path in files:
         import_loose_file(path)
 
 
-def _evaluate(key: bytes, chunk: Sequence[Plan]) -> list[Trial]:
-    rollouts = _rollouts(key)
-    return [rollouts(plan) for plan in chunk]
+def _end_with_parent() -> None:
+    parent = multiprocessing.parent_process()
+    assert parent is not None
+    parent.join()
+    os._exit(1)
 
 
-@lru_cache(maxsize=1)
-def _rollouts(key: bytes) -> Rollouts:
-    """The worker's world for the problem it works on."""
-    problem: Problem = pickle.loads(key)
-    return Rollouts(problem)
+def _evaluate(key: bytes, chunk: Sequence[Plan]) -> Answer:
+    """The trials of a chunk; what came before an error is kept, as if plans were carried out one by one."""
+    begun = time.perf_counter()
+    trials: list[Trial] = []
+    error = None
+    try:
+        rollouts = _worker.rollouts(key)
+        for plan in chunk:
+            trials.append(rollouts(plan))
+    except Exception as raised:
+        error = raised
+    return Answer(trials, error, time.perf_counter() - begun)
+
+
+class _Worker:
+    """The one world that a worker process keeps, for the problem that it works on."""
+
+    def __init__(self) -> None:
+        self._key = b""
+        self._rollouts: Rollouts | None = None
+
+    def rollouts(self, key: bytes) -> Rollouts:
+        """The world of the problem; that of another problem is closed."""
+        if self._rollouts is None or key != self._key:
+            if self._rollouts is not None:
+                self._rollouts.close()
+                self._rollouts = None
+            problem: Problem = pickle.loads(key)
+            self._key, self._rollouts = key, Rollouts(problem)
+        return self._rollouts
+
+
+_worker = _Worker()

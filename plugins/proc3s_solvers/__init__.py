@@ -1,4 +1,4 @@
-"""The solvers of the paper."""
+"""The solvers of the paper, and solvers that learn from trials."""
 
 from collections.abc import Callable
 
@@ -7,7 +7,7 @@ from proc3s import SolverSpec, hookimpl
 
 @hookimpl
 def register_solvers(register: Callable[[SolverSpec], None]) -> None:
-    """Rejection sampling, and annealed Gaussian noise."""
+    """Uniform draws, annealed noise, backtracking, evolution, and a portfolio of them."""
     register(
         SolverSpec(
             name="rejection",
@@ -22,5 +22,29 @@ def register_solvers(register: Callable[[SolverSpec], None]) -> None:
             summary="Normal noise around the centre of the space, from none to full scale over the budget.",
             target="proc3s_solvers.sampling:Gaussian",
             options="proc3s_solvers.sampling:BatchOptions",
+        )
+    )
+    register(
+        SolverSpec(
+            name="backtracking",
+            summary="Keeps the accepted steps and draws again what matters from the failing step on.",
+            target="proc3s_solvers.backtracking:Backtracking",
+            options="proc3s_solvers.backtracking:BacktrackingOptions",
+        )
+    )
+    register(
+        SolverSpec(
+            name="cma",
+            summary="Evolves samples towards further steps and smaller violations (CMA-ES).",
+            target="proc3s_solvers.evolution:Cma",
+            options="proc3s_solvers.evolution:CmaOptions",
+        )
+    )
+    register(
+        SolverSpec(
+            name="portfolio",
+            summary="Rejection, then backtracking and cma in turns that double.",
+            target="proc3s_solvers.portfolio:Portfolio",
+            options="proc3s_solvers.portfolio:PortfolioOptions",
         )
     )

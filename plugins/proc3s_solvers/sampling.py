@@ -8,6 +8,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from proc3s import FloatArray, Space, Trial
 
+BELOW_ONE = np.nextafter(1.0, 0.0)
 _cdf = np.vectorize(NormalDist().cdf, otypes=[float])
 
 
@@ -16,8 +17,8 @@ class BatchOptions(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
-    first: int = Field(64, ge=1, description="samples of the first batch")
-    largest: int = Field(1024, ge=1, description="samples of the largest batch")
+    first: int = Field(default=64, ge=1, description="samples of the first batch")
+    largest: int = Field(default=1024, ge=1, description="samples of the largest batch")
 
 
 class _Batches:
@@ -65,7 +66,7 @@ class Gaussian:
         scale = self._scale[self._drawn : self._drawn + k, None]
         self._drawn += k
         u: FloatArray = _cdf(scale * self._rng.standard_normal((k, self._dim)))
-        return u
+        return np.minimum(u, BELOW_ONE)
 
     def tell(self, trials: Sequence[Trial]) -> None:
         """Learns nothing."""
