@@ -17,10 +17,7 @@ class BacktrackingOptions(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     children: int = Field(default=16, ge=1, description="samples of a batch that extends a prefix")
-    tries: int = Field(
-        default=32, ge=1, description="samples that a prefix is given at first; doubles at every restart"
-    )
-    most_tries: int = Field(default=1024, ge=1, description="samples that a prefix is given at most")
+    tries: int = Field(default=32, ge=1, description="samples for a prefix before the search backs up")
 
 
 def _reluctant_doubling() -> Iterator[int]:
@@ -35,8 +32,8 @@ class Backtracking(BatchSearch):
     """Draws again only the parameters that matter from the failing step on, as `space.influence` says.
 
     A step that stays infeasible makes it back up by 1, 2, 4 ... levels; when none is left it starts anew with
-    uniform draws and twice the patience. So no point of the space is out of its reach, and where every
-    parameter matters from the first step, it is rejection sampling.
+    uniform draws, and now and then with twice the patience. So no point of the space is out of its reach, and
+    where every parameter matters from the first step, it is rejection sampling.
     """
 
     def __init__(

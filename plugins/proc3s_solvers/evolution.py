@@ -20,13 +20,9 @@ class CmaOptions(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     first: int = Field(default=32, ge=1, description="uniform samples before the first run")
-    population: int = Field(
-        default=24, ge=4, description="samples of a generation of the first run; doubles at every restart"
-    )
+    population: int = Field(default=24, ge=4, description="samples of a generation; doubles at a restart")
     largest: int = Field(default=96, ge=4, description="samples of a generation at most")
-    sigma: float = Field(
-        default=0.2, gt=0, le=1, description="standard deviation of the first generation, in ranges"
-    )
+    sigma: float = Field(default=0.2, gt=0, le=1, description="deviation of the first generation, in ranges")
     patience: int = Field(default=8, ge=1, description="generations without progress that end a run")
     uniform: float = Field(default=0.25, ge=0.01, le=0.9, description="share of samples drawn uniformly")
 

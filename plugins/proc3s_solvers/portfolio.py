@@ -12,14 +12,12 @@ from proc3s_solvers.sampling import BatchOptions, Rejection
 
 
 class PortfolioOptions(BaseModel):
-    """Lengths of the turns, in samples."""
+    """Lengths of the turns; those of backtracking and cma double."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     rejection: int = Field(default=64, ge=1, description="uniform samples before the first turn")
-    turn: int = Field(
-        default=64, ge=1, description="samples of the first turn of backtracking and of cma; doubles"
-    )
+    turn: int = Field(default=128, ge=1, description="samples of the first turns of backtracking and cma")
 
 
 class Portfolio:

@@ -107,9 +107,7 @@ class Evaluator:
                 for i, violation in enumerate(screen(batch)):
                     if violation is not None and i not in settled:
                         step, sample = violation.step, tuple(rows[i])
-                        settled[i] = Trial(
-                            None, (violation,), step, (), None, screen.name, first + i, sample
-                        )
+                        settled[i] = Trial(None, (violation,), step, (), None, screen.name, first + i, sample)
         for i, error in batch.errors.items():
             settled[i] = Trial(error=error, index=first + i, u=tuple(rows[i]))
         return settled

@@ -12,7 +12,7 @@ import numpy as np
 
 from proc3s.audit import Audit
 from proc3s.clock import Clock
-from proc3s.conversation import Exchange, Proposal, Propose
+from proc3s.conversation import Exchange, Proposal, Propose, Rounds
 from proc3s.errors import Interrupted, Proc3sError
 from proc3s.evaluation import Evaluator
 from proc3s.events import Audited, BatchEvaluated, Emit, ProgramExtracted, RoundEnded, SketchLoaded
@@ -53,41 +53,12 @@ class Outcome:
     error: Proc3sError | None = None
 
 
-class Rounds:
-    """How many questions are left: the first, the feedback rounds, and repairs of unusable programs.
-
-    A program that never came to be sampled costs a repair before it costs a round, as many in a row as the
-    preset says.
-    """
-
-    def __init__(self, feedback: int, repairs: int) -> None:
-        self._feedback = feedback
-        self.left = feedback + 1
-        self._repairs = repairs if feedback else 0
-        self._repaired = 0
-
-    @property
-    def used(self) -> int:
-        """Feedback rounds so far; the first question is none."""
-        return min(self._feedback + 1 - self.left, self._feedback)
-
-    def spend(self, repair: bool) -> None:
-        """A question was answered in vain; `repair`: its program could not be used at all."""
-        if repair and self._repaired < self._repairs:
-            self._repaired += 1
-        else:
-            self.left -= 1
-            self._repaired = 0
-
-
 def plan(setup: Setup, propose: Propose, emit: Emit) -> Outcome:
     """Ask, search, and ask again with feedback, until a plan is accepted or the rounds are used up."""
-    clock, proposals, attempts, history = (
-        Clock("llm", "solve", "execute"),
-        list[Proposal](),
-        list[Attempt](),
-        list[Exchange](),
-    )
+    clock = Clock("llm", "solve", "execute")
+    proposals: list[Proposal] = []
+    attempts: list[Attempt] = []
+    history: list[Exchange] = []
     rounds = Rounds(setup.method.rounds, setup.preset.repairs)
     execution, error = None, None
     try:
@@ -163,8 +134,7 @@ def _execute(setup: Setup, attempts: list[Attempt], emit: Emit) -> Execution | N
     if last.solution and last.solution.plan:
         return execute(setup.problem, last.solution.plan, "solution", last.round, setup.picture, emit)
     usable = [(attempt.fallback, attempt.round) for attempt in attempts if attempt.fallback]
-    return (
-        execute(setup.problem, usable[-1][0], "fallback", usable[-1][1], setup.picture, emit)
-        if usable
-        else None
-    )
+    if not usable:
+        return None
+    fallback, round_ = usable[-1]
+    return execute(setup.problem, fallback, "fallback", round_, setup.picture, emit)

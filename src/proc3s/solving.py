@@ -56,16 +56,19 @@ def solve(
     """
     trials: list[Trial] = []
     limit = min(budget, 1) if space.dim == 0 else budget
-    while len(trials) < limit:
-        u = np.empty((1, 0)) if space.dim == 0 else solver.ask(limit - len(trials))
-        if not len(u):
-            break
-        done = _evaluate(evaluator, u)
-        solver.tell(done.trials)
-        report(done.trials)
-        trials += done.trials
-        if done.halted or done.broken_off or done.solution:
-            return Search(tuple(trials), done.halted, done.broken_off)
+    try:
+        while len(trials) < limit:
+            u = np.empty((1, 0)) if space.dim == 0 else solver.ask(limit - len(trials))
+            if not len(u):
+                break
+            done = _evaluate(evaluator, u)
+            trials += done.trials
+            report(done.trials)
+            if done.halted or done.broken_off or done.solution:
+                return Search(tuple(trials), done.halted, done.broken_off)
+            solver.tell(done.trials)
+    except SketchError as error:  # a solver may run the program too, to see which parameters matter
+        return Search(tuple(trials), halted=error)
     return Search(tuple(trials))
 
 

@@ -64,16 +64,16 @@ def test_margins_that_lead_astray_are_overcome_by_uniform_draws(solvers, seed):
 def test_the_uniform_share(solvers, share):
     """The strategy settles below 0.1; what lies above 0.5 is half of the uniform draws."""
     astray = toy(lambda p: [-0.1 - p.sum()], [0, 0])
-    u = samples(solvers("cma", uniform=share, patience=1000, first=8), astray.space, astray, 4000)
-    assert (u[1000:, 0] > 0.5).mean() == pytest.approx(share / 2, abs=0.03)
+    u = samples(solvers("cma", uniform=share, patience=1000, first=8), astray.space, astray, 2000)
+    assert (u[500:, 0] > 0.5).mean() == pytest.approx(share / 2, abs=0.04)
 
 
 def test_it_starts_anew_when_stuck(solvers):
     """On a flat problem no run makes progress; every run begins somewhere else."""
     flat = toy(lambda p: [-1.0], [0, 0])
-    u = samples(solvers("cma", uniform=0.01, sigma=0.01), flat.space, flat, 4000)
+    u = samples(solvers("cma", uniform=0.01, sigma=0.01), flat.space, flat, 2000)
     starts = {tuple(row) for row in u.round(1)}
-    assert len(starts) > 10
+    assert len(starts) > 5
 
 
 def test_it_prints_nothing_and_warns_of_nothing(solvers, capfd):
