@@ -1,5 +1,6 @@
 """The canvas in numpy: what the world would say of a whole batch of drawings, without a step in it."""
 
+import itertools
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -16,6 +17,8 @@ _BAND = 1e-6
 arithmetic is not better."""
 _PAIRS = 1 << 15
 """Pairs of lines and obstacles that are looked at together: their arrays stay in the processor's cache."""
+_STEPS = (0, 1, 3, np.inf)
+"""The steps of a plan are looked at in these groups."""
 _POINT = 1e-30
 """A line whose squared length is smaller is a point."""
 
@@ -54,7 +57,7 @@ class _Obstacles:
         lines, drawn = _lines(batch)
         inside, axis = _inside(lines)
         outside = inside < self._least_inside
-        plans, actions = _first(outside | self._near(lines) | ~drawn, batch.start)
+        plans, actions = _first(self._near(lines, outside | ~drawn, batch.start), batch.start)
         reason, margin = axis[actions], inside[actions]
         hit = ~outside[actions]
         reason[hit], margin[hit], sure = self._touched(lines[actions[hit]])
@@ -66,17 +69,32 @@ class _Obstacles:
             found[i] = Violation(constraint, step, SKILL, value, text)
         return found
 
-    def _near(self, lines: FloatArray) -> NDArray[np.bool_]:
-        """Whether each line, shape (n, 4), may touch an obstacle: none that does is missed."""
-        near = np.zeros(len(lines), bool)
+    def _near(
+        self, lines: FloatArray, stops: NDArray[np.bool_], start: NDArray[np.int64]
+    ) -> NDArray[np.bool_]:
+        """`stops`, and the lines, shape (n, 4), that may touch an obstacle; of each plan at least the first.
+
+        Few plans of a crowded canvas are legal, so the lines behind a stop are not looked at.
+        """
         if not len(self._x):
-            return near
+            return stops
+        near = stops.copy()
+        plan = np.repeat(np.arange(len(start) - 1), np.diff(start))
+        step = np.arange(len(lines)) - start[plan]
+        standing = np.ones(len(start) - 1, bool)
+        for low, high in itertools.pairwise(_STEPS):
+            rows = np.flatnonzero((step >= low) & (step < high) & standing[plan])
+            near[rows] |= self._reached(lines[rows])
+            standing[plan[rows[near[rows]]]] = False
+        return near
+
+    def _reached(self, lines: FloatArray) -> NDArray[np.bool_]:
+        """Whether each line may touch an obstacle: none that does is missed."""
         reach2 = np.maximum(self._radius + self._least_clear + _BAND, 0.0)[:, None] ** 2
         size = max(1, _PAIRS // len(self._x))
-        for at in range(0, len(lines), size):
-            distance2 = self._squared_distances(lines[at : at + size])
-            near[at : at + size] = (distance2 < reach2).any(axis=0)
-        return near
+        parts = [lines[at : at + size] for at in range(0, len(lines), size)]
+        found = [(self._squared_distances(part) < reach2).any(axis=0) for part in parts]
+        return np.concatenate(found) if found else np.zeros(0, bool)
 
     def _touched(self, lines: FloatArray) -> tuple[NDArray[np.int64], FloatArray, NDArray[np.bool_]]:
         """Of each line: the reason why it is refused, its clearance, and whether both are beyond doubt."""

@@ -72,9 +72,7 @@ def program(obstacles: int) -> Program:
     samplers: list = []
     register_samplers(samplers.append)
     line = Signature("draw_line", tuple(Parameter(n, "float", 0, 100) for n in ("x1", "y1", "x2", "y2")))
-    return Program(
-        textwrap.dedent(SOURCE), "sketch", PRELUDE, scene(obstacles), (line,), tuple(samplers)
-    )
+    return Program(textwrap.dedent(SOURCE), "sketch", PRELUDE, scene(obstacles), (line,), tuple(samplers))
 
 
 def cpu_of(pid: int) -> float:

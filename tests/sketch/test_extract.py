@@ -1,3 +1,5 @@
+import time
+
 import pytest
 
 from proc3s.sketch import SketchContractError, extract_program
@@ -40,3 +42,13 @@ def test_inline_code_is_no_fence():
 def test_no_program(answer):
     with pytest.raises(SketchContractError, match="contains no program"):
         extract_program(answer)
+
+
+@pytest.mark.parametrize(
+    "answer", ["```" + "x" * 10**6 + "`", "\n" * 10**6, "``` " + " " * 10**6 + "`", "`" * 10**6]
+)
+def test_no_answer_takes_long_to_search(answer):
+    started = time.monotonic()
+    with pytest.raises(SketchContractError):
+        extract_program(answer)
+    assert time.monotonic() - started < 2

@@ -7,7 +7,20 @@ from proc3s.sketch.text import Source, clean, message
 
 
 @pytest.mark.parametrize(
-    "bad", ["\x1b", "\x00", "\u202e", "\u200b", "\ufeff", "\u2066", "\U000e0041", "\ud800", "\r"]
+    "bad",
+    [
+        "\x1b",
+        "\x00",
+        "\u202e",
+        "\u200b",
+        "\ufeff",
+        "\u2066",
+        "\U000e0041",
+        "\ud800",
+        "\r",
+        "\u3164",
+        "\ufe0f",
+    ],
 )
 def test_what_could_mislead_a_reader_is_replaced(bad):
     assert clean(f"a{bad}b", 10) == "a?b"

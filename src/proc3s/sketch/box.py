@@ -1,7 +1,6 @@
 """The boxed sketch: a program of a language model, loaded in a locked worker process of its own."""
 
 import json
-import time
 import weakref
 from dataclasses import dataclass
 from typing import Any, Literal
@@ -130,13 +129,12 @@ class BoxedSketch:
     def _load(self, friendly: bool) -> list[OpenParameter]:
         """Load, check the contract, and return the parameters; all breaches are raised at once."""
         self._channel.wait_until_ready()
-        deadline = time.monotonic() + self._limits.load
         try:
-            contents = self._contents(_request(self._program, self._limits, friendly), deadline)
+            contents = self._contents(_request(self._program, self._limits, friendly))
             self.log = clean(contents.log, self._limits.printed)
             parameters, issues = open_parameters(contents, self._program.samplers, self._source)
             body = json.dumps([p.centre for p in parameters]).encode()
-            _, answer = self._channel.ask(PROBE, body, PROBED, deadline)
+            _, answer = self._channel.ask(PROBE, body, PROBED, self._limits.call, "one call of gen_plan")
             problems = contents.problems + parse(PROBLEMS, answer)
         except Malformed as error:
             raise lie(error) from error
@@ -147,8 +145,9 @@ class BoxedSketch:
             raise lie(Malformed("a parameter has no sampler"))
         return parameters
 
-    def _contents(self, request: dict[str, Any], deadline: float) -> Contents:
-        kind, answer = self._channel.ask(LOAD, json.dumps(request).encode(), LOADED, deadline)
+    def _contents(self, request: dict[str, Any]) -> Contents:
+        body = json.dumps(request).encode()
+        kind, answer = self._channel.ask(LOAD, body, LOADED, self._limits.load, "loading the program")
         if kind != ERROR:
             return parse(CONTENTS, answer)
         fault = parse(FAULT, answer)

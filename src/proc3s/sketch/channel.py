@@ -75,13 +75,16 @@ class Channel:
         if kind != READY:
             raise SandboxUnavailable(message(reason))
 
-    def ask(self, operation: bytes, body: bytes, expected: int, deadline: float) -> tuple[int, bytes]:
+    def ask(
+        self, operation: bytes, body: bytes, expected: int, seconds: float, what: str
+    ) -> tuple[int, bytes]:
         """Kind (`expected` or ERROR) and body of the one reply to a request. Raises SketchError."""
+        deadline = time.monotonic() + seconds
         try:
             self._send(operation, body, deadline)
             return self._frame((expected, ERROR), deadline)
         except _Late:
-            self._timeout(f"loading the program took longer than {self._limits.load:g} s")
+            self._timeout(f"{what} took longer than {seconds:g} s")
         except _Ended:
             self._crash()
         except Malformed as error:

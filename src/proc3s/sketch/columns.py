@@ -68,8 +68,12 @@ class Columns:
     ) -> Mapping[int, SketchError]:
         """The first illegal value of each sample that has one."""
         # which of the parameters' columns each value belongs to
-        column = np.repeat(self._first[skill] - offset[:-1], self._width[skill]) + np.arange(len(values))
-        legal = (np.abs(values) < _BOUND) & (values >= self._low[column]) & (values <= self._high[column])
+        column = np.repeat((self._first[skill] - offset[:-1]).astype(np.int32), self._width[skill])
+        column += np.arange(len(values), dtype=np.int32)
+        # step by step, since a batch may be large
+        legal = np.abs(values) < _BOUND
+        legal &= values >= self._low[column]
+        legal &= values <= self._high[column]
         legal &= ~self._whole[column] | (values == np.floor(values))
         wrong = np.flatnonzero(~legal)
         sample, first = np.unique(np.searchsorted(offset[start], wrong, "right") - 1, return_index=True)

@@ -16,7 +16,7 @@ class Limits:
     """CPU seconds over the worker's life: stops it when nobody is left to watch the other limits."""
     frame: int = 256 << 10
     """One reply."""
-    replies: int = 128 << 20
+    replies: int = 32 << 20
     """All replies of one batch."""
     actions: int = 500
     source: int = 64 << 10

@@ -12,7 +12,7 @@ import numpy as np
 
 from .encoding import Unfit, did_you_mean, near, shown
 from .lines import Lines
-from .wire import LONGEST_NAME, MOST_PARAMETERS, MOST_VALUES
+from .wire import LONGEST_NAME, MOST_PARAMETERS, MOST_PROBLEMS, MOST_VALUES
 
 _LONGEST_TEXT = 200
 _VARIADIC: dict[Any, str] = {inspect.Parameter.VAR_POSITIONAL: "*", inspect.Parameter.VAR_KEYWORD: "**"}
@@ -98,6 +98,8 @@ class Inspector:
             return parameters
         names = [parameter.name for parameter in parameters]
         for key in domain:
+            if len(self.problems) >= MOST_PROBLEMS:
+                break
             if key not in names:
                 text = f"gen_domain names {shown(key)}, which is no parameter of gen_plan{near(key, names)}"
                 self.problems.append((text, self.lines.of_key(key)))

@@ -89,6 +89,8 @@ class Program:
     def _parse(self, source: str) -> ast.Module:
         try:
             return ast.parse(source, FILENAME)
+        except MemoryError:  # so the parser says that its stack is full
+            raise LoadError("syntax") from SyntaxError("the program is nested too deeply")
         except (SyntaxError, ValueError, RecursionError) as error:
             raise LoadError("syntax") from error
 

@@ -26,6 +26,7 @@ IMPORTABLE = (
 _SUBMODULES = (
     "collections.abc", "encodings.ascii", "encodings.latin_1", "encodings.unicode_escape", "encodings.utf_8",
     "inspect", "numpy.fft", "numpy.linalg", "numpy.ma", "numpy.polynomial", "numpy.random", "numpy.typing",
+    "unicodedata",  # the parser asks for it where a name is not ASCII
 )  # fmt: skip
 _OPTIONAL = ("shapely", "shapely.geometry", "shapely.ops", "shapely.affinity")
 _USELESS = ("open", "input", "breakpoint", "exit", "quit", "help")
@@ -89,8 +90,10 @@ def program_names(prelude: dict[str, Any], importable: tuple[str, ...], friendly
 
 def _builtins(importable: tuple[str, ...]) -> dict[str, Any]:
     def limited_import(name: str, *args: Any) -> Any:
-        level = args[3] if len(args) > 3 else 0
-        if level or name.partition(".")[0] not in importable:
+        wanted, level = args[2:] if len(args) > 3 else ((), 0)
+        # C code, such as numpy's, imports in the program's name, and gives a list
+        internal = isinstance(wanted, list)
+        if not internal and (level or name.partition(".")[0] not in importable):
             raise ImportError(f"{name!r} cannot be imported here; available: {', '.join(importable)}")
         return builtins.__import__(name, *args)
 
@@ -141,15 +144,19 @@ def noting_lines(action: Any, filename: str, spread: bool) -> Iterator[dict[int,
 
     def noting_init(self: Any, *args: Any, **kwargs: Any) -> None:
         lines[id(self)] = _line_in(filename, sys._getframe(1))
-        if spread and len(args) > 2:
-            args = (args[0], list(args[1:]))
-        make(self, *args, **kwargs)
+        make(self, *(_gathered(args) if spread else args), **kwargs)
 
     action.__init__ = noting_init
     try:
         yield lines
     finally:
         action.__init__ = make
+
+
+def _gathered(args: tuple[Any, ...]) -> tuple[Any, ...]:
+    if len(args) > 2 or (len(args) == 2 and not isinstance(args[1], list | tuple | np.ndarray)):
+        return args[0], list(args[1:])
+    return args
 
 
 def _line_in(filename: str, frame: types.FrameType | None) -> int:

@@ -1,0 +1,205 @@
+"""A benchmark from the command line: what is wanted, measured one by one, as a table and as files."""
+
+import json
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict, dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any, TypeAlias
+
+import typer
+from rich.console import Console
+from rich.table import Table
+
+from proc3s.benchmark import PLAIN, Bench, Case, Measurement, Way, find_cases
+from proc3s.errors import Interrupted, Proc3sError, UsageError, did_you_mean
+from proc3s.ratios import Row, rows
+from proc3s.registry import Registry, open_registry
+from proc3s.runs import new_folder, versions
+from proc3s.specs import ExecutorSpec, SolverSpec
+
+SUITES = ("ccsp",)
+STAGES = "program + screens + world + other"
+SEARCHES = (
+    *("program", "way", "solved", "samples", "world", "us/sample", STAGES, "s/solution", "samples/s"),
+    *("faster a sample", "fewer samples", "faster a solution"),
+)
+BATCHES = ("program", "way", "us/sample", STAGES, "samples/s", "screens: plans/s", "world: plans/s", "faster")
+
+
+_WIDTH = 180
+"""Columns of a table; a narrower terminal wraps its lines."""
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """What a benchmark was asked to do; no task or solver stands for all of them."""
+
+    suite: str
+    tasks: tuple[str, ...]
+    solvers: tuple[str, ...]
+    seeds: int
+    executor: str
+    jobs: int
+    samples: int | None
+    throughput: int
+    plugins: tuple[Path, ...]
+
+
+@dataclass
+class Results:
+    """What was measured up to now: searches, and runs in large batches."""
+
+    searches: list[Measurement]
+    throughput: list[Measurement]
+
+    def document(self, wanted: Wanted, error: Proc3sError | None) -> dict[str, Any]:
+        """Everything as plain data."""
+        return {
+            "options": {**asdict(wanted), "plugins": [str(path) for path in wanted.plugins]},
+            "time": datetime.now(UTC).isoformat(timespec="seconds"),
+            "versions": versions(),
+            "error": str(error) if error else None,
+            "searches": [row.model_dump() for row in rows(self.searches)],
+            "throughput": [row.model_dump() for row in rows(self.throughput)],
+            "measurements": {
+                "searches": [asdict(m) for m in self.searches],
+                "throughput": [asdict(m) for m in self.throughput],
+            },
+        }
+
+
+def run_bench(wanted: Wanted, out: Path | None, as_json: bool) -> None:
+    """Measure, print and write. What is done when it is interrupted is kept. Raises UsageError."""
+    registry = open_registry(wanted.plugins)
+    cases, ways = _chosen(registry, wanted)
+    folder = _folder(out)
+    results = Results([], [])
+    stopped: Proc3sError | None = None
+    progress = Console(stderr=True, quiet=as_json, highlight=False)
+    try:
+        with Bench(registry, ways, wanted.samples) as bench:
+            for note in _measure(bench, cases, wanted, results):
+                progress.print(note)
+    except KeyboardInterrupt:
+        stopped = Interrupted("interrupted; what was measured is kept")
+    except Proc3sError as error:
+        stopped = error
+    document = results.document(wanted, stopped)
+    _write(folder / "results.json", json.dumps(document, indent=2, ensure_ascii=False) + "\n")
+    _write(folder / "results.md", _markdown(results))
+    if as_json:
+        typer.echo(json.dumps(document, indent=2, ensure_ascii=False))
+    else:
+        _print(results, folder)
+    if stopped is not None:
+        raise stopped
+
+
+def _chosen(registry: Registry, wanted: Wanted) -> tuple[list[Case], list[Way]]:
+    """The cases and ways that are wanted. Raises UsageError for names that do not exist."""
+    if wanted.suite not in SUITES:
+        raise UsageError(f"there is no benchmark {wanted.suite!r}{did_you_mean(wanted.suite, SUITES)}")
+    registry.get(ExecutorSpec, wanted.executor)
+    solvers = [registry.get(SolverSpec, name).name for name in wanted.solvers]
+    ways = [
+        Way(solver, solver, wanted.executor, wanted.jobs)
+        for solver in dict.fromkeys(solvers or registry.all(SolverSpec))
+    ]
+    cases = find_cases(registry, wanted.tasks)
+    if not cases:
+        raise UsageError("no domain brings programs for a benchmark (bench/TASK.NAME.py beside its spec)")
+    return cases, ways
+
+
+def _folder(out: Path | None) -> Path:
+    if out is None:
+        return new_folder(Path("runs"), "bench", "ccsp", 0)
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise UsageError(f"the folder {out} cannot be made: {error.strerror}") from error
+    return out
+
+
+def _measure(bench: Bench, cases: Sequence[Case], wanted: Wanted, results: Results) -> Iterator[str]:
+    """Fill the results; tells what it does next."""
+    for case in cases:
+        for seed in range(wanted.seeds):
+            yield f"{case.label} seed {seed}"
+            for measurement in bench.search(case, seed):
+                results.searches.append(measurement)
+            if wanted.throughput:
+                for measurement in bench.throughput(case, seed, wanted.throughput):
+                    results.throughput.append(measurement)
+
+
+def _write(path: Path, text: str) -> None:
+    try:
+        path.write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise UsageError(f"{path} cannot be written: {error.strerror}") from error
+
+
+def _search_cells(row: Row) -> list[str]:
+    ratios = (row.faster_per_sample, row.fewer_samples, row.faster_per_solution)
+    return [
+        row.case,
+        row.way,
+        f"{row.solved}/{row.seeds}",
+        f"{row.samples:.0f}",
+        f"{row.evaluations:.0f}",
+        f"{row.us_per_sample['total']:.1f}",
+        _stages(row, "{:.1f}"),
+        f"{row.s_per_solution['total']:.3g}" if row.s_per_solution else "",
+        f"{row.samples_per_second:,.0f}",
+        *(str(ratio) if ratio else "" for ratio in ratios),
+    ]
+
+
+def _batch_cells(row: Row) -> list[str]:
+    screens = row.us_per_sample["screens"] if row.way != PLAIN.name else 0.0
+    world = row.us_per_sample["world"] * row.samples / row.evaluations if row.evaluations else 0.0
+    return [
+        row.case,
+        row.way,
+        f"{row.us_per_sample['total']:.1f}",
+        _stages(row, "{:.1f}"),
+        f"{row.samples_per_second:,.0f}",
+        *(f"{1e6 / us:,.0f}" if us else "" for us in (screens, world)),
+        str(row.faster_per_sample or ""),
+    ]
+
+
+def _stages(row: Row, number: str) -> str:
+    return " + ".join(number.format(value) for name, value in row.us_per_sample.items() if name != "total")
+
+
+Lines: TypeAlias = list[list[str]]
+
+
+def _tables(results: Results) -> Iterator[tuple[str, tuple[str, ...], Lines]]:
+    """Title, head and lines."""
+    yield "Until a plan is found", SEARCHES, [_search_cells(row) for row in rows(results.searches)]
+    if results.throughput:
+        lines = [_batch_cells(row) for row in rows(results.throughput)]
+        yield "In large batches, whatever is accepted", BATCHES, lines
+
+
+def _markdown(results: Results) -> str:
+    parts = []
+    for title, head, cells in _tables(results):
+        lines = [f"| {' | '.join(line)} |" for line in (head, ["---"] * len(head), *cells)]
+        parts.append(f"## {title}\n\n" + "\n".join(lines) + "\n")
+    return "\n".join(parts)
+
+
+def _print(results: Results, folder: Path) -> None:
+    console = Console(highlight=False, width=max(_WIDTH, Console().width))
+    for title, head, cells in _tables(results):
+        console.print(title)
+        table = Table(*head, box=None, pad_edge=False)
+        for line in cells:
+            table.add_row(*line)
+        console.print(table)
+    console.print(f"folder   {folder}", soft_wrap=True)

@@ -1,0 +1,11 @@
+# Constants of its own beside those of the domain.
+# expect: plan: draw_line(10.00, 90.00, 90.00, 90.00)
+MARGIN = 0.1 * CANVAS
+LEFT, RIGHT = MARGIN, CANVAS - MARGIN
+SIDES = {"top": RIGHT, "bottom": LEFT}
+
+def gen_plan(state, side):
+    return [Action("draw_line", [LEFT, SIDES[side], RIGHT, SIDES[side]])]
+
+def gen_domain(state):
+    return {"side": DiscreteSampler(["top"])}
