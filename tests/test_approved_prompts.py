@@ -1,4 +1,4 @@
-"""The prompts that the repository ships are the approved ones, so that a change of a template shows in a diff."""
+"""The prompts of the repository are the approved ones, so that a changed template shows in a diff."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""The wheel works by itself: built, installed in a clean environment outside the repository, and run there."""
+"""The wheel works by itself: built, installed in a clean environment, and run outside the repository."""
 
 import json
 import os

@@ -47,7 +47,8 @@ def progress(trial: Trial) -> float:
     """
     if trial.error is not None:
         return -1.0
-    violation = max((-v.margin for v in trial.violations), default=0.0)
+    # The first violation only: a screen names no others, and the order must not depend on who rejected.
+    violation = -trial.violations[0].margin if trial.violations else 0.0
     return trial.reached + 1 / (1 + max(violation, 0.0))
 
 

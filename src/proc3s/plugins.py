@@ -152,7 +152,7 @@ def _checked(spec: Any, hook: str) -> Spec:
 
 def loose_files() -> tuple[Path, ...]:
     """The loose plugin files that this process has imported."""
-    modules = [m for m in sys.modules.values() if hasattr(m, _LOOSE)]
+    modules = [module for module in list(sys.modules.values()) if hasattr(module, _LOOSE)]
     return tuple(dict.fromkeys(Path(str(module.__file__)) for module in modules))
 
 

@@ -169,6 +169,8 @@ class ConstraintSpec(Target):
 class ScreenSpec(Target):
     """A cheap test before the world: `target(state, batch)` gives a violation or None for every plan.
 
+    If it has a parameter `domain`, it is given the domain as well.
+
     A screen may only reject, and what it says of a plan must not depend on the batch around it. A stateful
     one is made once a world, `target(domain)`, and its `check(state, plan)` looks at one plan at a time.
     """

@@ -1,6 +1,14 @@
 """What preset `best` does beyond the paper: the judge inside the loop, repairs, restarts, graded feedback."""
 
-BROKEN = "```python\ndef gen_plan(initial, x):\n    return [Action('draw_lien', [x, 1, 2, 2])]\n\ndef gen_domain(initial):\n    return {'y': ContinuousSampler(0, 1)}\n```"
+BROKEN = """
+```python
+def gen_plan(initial, x):
+    return [Action('draw_lien', [x, 1, 2, 2])]
+
+def gen_domain(initial):
+    return {'y': ContinuousSampler(0, 1)}
+```
+"""
 POLYGON = """
 ```python
 def gen_plan(initial, points, radius):
