@@ -17,11 +17,12 @@ def register_domains(register):
 
 
 class Walk(World):
-    """`seconds` of work a step; `count` is a file that notes every step in any process."""
+    """`seconds` of work and `asleep` of waiting a step; the file `count` notes every step in any process."""
 
-    def __init__(self, domain, seconds=0.0, count=None, broken_at=None):
+    def __init__(self, domain, seconds=0.0, asleep=0.0, count=None, broken_at=None):
         super().__init__(domain)
         self._seconds, self._count, self._broken_at = seconds, count, broken_at
+        self._asleep = asleep
 
     def work(self, place):
         if self._broken_at is not None and place > self._broken_at:
@@ -29,6 +30,7 @@ class Walk(World):
         if self._count:
             with Path(self._count).open("a") as file:
                 file.write("x")
+        time.sleep(self._asleep)
         end = time.process_time() + self._seconds
         while time.process_time() < end:
             pass
