@@ -72,10 +72,9 @@ class Console:
             size = sum(len(message.text) for message in event.messages)
             self._say(f"round {event.round}: asking {self._options.llm} ({size} characters)")
         elif isinstance(event, AnswerReceived):
-            completion = event.completion
-            self._say(
-                f"round {event.round}: {_ORIGIN.get(completion.source, 'an answer')} from {completion.model}"
-            )
+            source, model = event.completion.source, event.completion.model
+            whose = "" if source == "authored" else f" from {model}"
+            self._say(f"round {event.round}: {_ORIGIN.get(source, 'an answer')}{whose}")
         elif isinstance(event, SketchLoaded):
             self._loaded(event)
         elif isinstance(event, BatchEvaluated):
@@ -125,6 +124,8 @@ class Console:
         if summary.error is None:
             out.print(escape(f"goal     {_goal(summary)}"))
         out.print(f"samples  {summary.samples} in {_count(summary.rounds + 1, 'round')}, {_times(summary)}")
+        for screen, rejected in summary.rejected_by.items():
+            out.print(f"screen   {screen} rejected {rejected}")
         if summary.llm_source == "authored":
             out.print("answer   authored (written by hand, not by a model)")
         for step, action in enumerate(summary.plan or []):
