@@ -7,7 +7,7 @@ import platform
 import re
 from collections.abc import Mapping
 from datetime import UTC, datetime
-from importlib.metadata import PackageNotFoundError, version
+from importlib.metadata import PackageNotFoundError, entry_points, version
 from pathlib import Path
 from typing import Any
 
@@ -21,9 +21,9 @@ from proc3s.events import (
     RunEnded,
 )
 from proc3s.llms import Message
+from proc3s.plugins import GROUP
 
 LOG = "events.jsonl"
-PACKAGES = ("proc3s", "numpy", "pydantic", "jinja2", "litellm", "pymunk", "pybullet")
 
 
 class RunFolder:
@@ -113,13 +113,14 @@ def new_folder(parent: Path, task: str, method: str, seed: int) -> Path:
 
 
 def versions() -> dict[str, str]:
-    """Versions of everything a result may depend on."""
+    """Versions of everything a result may depend on: Python, and all that plugins come with and require."""
+    plugins = {e.dist.name: e.dist for e in entry_points(group=GROUP) if e.dist}
+    texts = (text.partition(";") for plugin in plugins.values() for text in plugin.requires or ())
+    required = {re.split(r"[^\w.-]", need, maxsplit=1)[0] for need, _, when in texts if "dev" not in when}
     found = {"python": platform.python_version(), "platform": platform.platform()}
-    for name in PACKAGES:
-        try:
+    for name in sorted({*plugins, *required}):
+        with contextlib.suppress(PackageNotFoundError):
             found[name] = version(name)
-        except PackageNotFoundError:
-            continue
     return found
 
 
