@@ -69,6 +69,8 @@ def solve(
             solver.tell(done.trials)
     except SketchError as error:  # a solver may run the program too, to see which parameters matter
         return Search(tuple(trials), halted=error)
+    except KeyboardInterrupt:  # wherever it strikes, what was sampled counts
+        return Search(tuple(trials), broken_off=Interrupted("interrupted"))
     return Search(tuple(trials))
 
 
