@@ -12,6 +12,8 @@ from dataclasses import dataclass
 import pytest
 from typer.testing import CliRunner
 
+from provider import running
+
 
 @dataclass(frozen=True)
 class Result:
@@ -25,6 +27,13 @@ class Result:
     def json(self):
         """The one document on stdout."""
         return json.loads(self.stdout)
+
+
+@pytest.fixture
+def provider():
+    """A server on this machine that speaks the protocols of OpenAI and Anthropic, and does as it is told."""
+    with running() as server:
+        yield server
 
 
 @pytest.fixture

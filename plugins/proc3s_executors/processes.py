@@ -15,7 +15,7 @@ from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
 from pathlib import Path
 
-from proc3s import Plan, Problem, Rollouts, Trial, UsageError, loose_files
+from proc3s import Plan, Problem, Rollouts, Trial, UsageError, loose_files, without_secrets
 
 _CHUNK_SECONDS = 0.02
 """Work that goes to a worker at once: long against sending it, short to wait for when nobody needs it."""
@@ -85,16 +85,20 @@ class Processes:
             self._plans_per_chunk = max(1, min(fitting, 2 * self._plans_per_chunk, _MOST_PLANS))
 
     def _submit(self, key: bytes, chunk: Sequence[Plan]) -> "Future[Answer]":
-        if self._pool is None:
-            context = multiprocessing.get_context("spawn")
-            files = loose_files()
-            self._pool = ProcessPoolExecutor(self._jobs, context, initializer=_begin, initargs=(files,))
         try:
-            return self._pool.submit(_evaluate, key, chunk)
+            with without_secrets():  # this may start processes
+                return self._workers().submit(_evaluate, key, chunk)
         except BrokenProcessPool as error:
             broken: Future[Answer] = Future()
             broken.set_exception(error)
             return broken
+
+    def _workers(self) -> ProcessPoolExecutor:
+        if self._pool is None:
+            context = multiprocessing.get_context("spawn")
+            files = loose_files()
+            self._pool = ProcessPoolExecutor(self._jobs, context, initializer=_begin, initargs=(files,))
+        return self._pool
 
     def _restart(self) -> None:
         self._restarts += 1

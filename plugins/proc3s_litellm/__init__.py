@@ -11,6 +11,7 @@ SPEC = LLMSpec(
     usage="PROVIDER/MODEL, or litellm/PROVIDER/MODEL",
     target="proc3s_litellm.backend:LiteLLM",
     options="proc3s_litellm.backend:Options",
+    check="proc3s_litellm.checks:check",
 )
 
 

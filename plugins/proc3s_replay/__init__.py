@@ -11,9 +11,10 @@ def register_llms(register: Callable[[LLMSpec], None]) -> None:
     register(
         LLMSpec(
             name="replay",
-            summary="Answers that are there already: bundled with the domain, in a folder, or in a run.",
-            usage="replay, or replay:PATH (a folder of answers or a run folder)",
+            summary="Answers that are there already: bundled with the domain, recorded, or those of a run.",
+            usage="replay, or replay:PATH (a cassette, or a folder of cassettes, of answers, or of a run)",
             target="proc3s_replay.replay:Replay",
+            options="proc3s_replay.replay:Options",
         )
     )
     register(
@@ -29,7 +30,7 @@ def register_llms(register: Callable[[LLMSpec], None]) -> None:
         LLMSpec(
             name="stub",
             summary="Scripted answers in order, for tests.",
-            usage="stub:FILE (JSON list of texts)",
+            usage="stub:FILE (JSON list of texts, one a round, or of lists of candidates)",
             target="proc3s_replay.stub:Stub",
         )
     )

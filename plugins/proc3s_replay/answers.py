@@ -6,7 +6,7 @@ from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from proc3s import Completion, LLMError, Request
+from proc3s import Completion, LLMError, Request, answer
 
 _FRONT = re.compile(r"\A---\n(.*?)\n---\n", re.DOTALL)
 
@@ -37,8 +37,11 @@ def find(folder: Path, request: Request) -> Path | None:
 
 
 def read(path: Path) -> Completion:
-    """The completion in a file. Raises LLMError if it does not say where it is from."""
-    text = path.read_text(encoding="utf-8")
+    """The completion in a file. Raises LLMError if it is no text, or does not say where it is from."""
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise LLMError(f"the answer {path} cannot be read: {error}") from error
     front = _FRONT.match(text)
     pairs = (line.partition(":")[::2] for line in front.group(1).splitlines()) if front else ()
     try:
@@ -47,9 +50,5 @@ def read(path: Path) -> Completion:
         raise LLMError(
             f"{path}: an answer begins with its origin, e.g. the three lines `---`, `origin: authored`, `---`"
         ) from error
-    return Completion(
-        text=text[front.end() :].strip() + "\n" if front else text,
-        source=origin.origin,
-        model=origin.model or "nobody (authored)",
-        finish_reason="stop",
-    )
+    whole = text[front.end() :].strip() + "\n" if front else text
+    return answer(whole, origin.model or "nobody (authored)", origin.origin)

@@ -1,28 +1,56 @@
-"""Replayed answers: bundled ones by name, those of a run by round and checked against its prompts."""
+"""Answers that are there already: recorded ones checked against their prompts, authored ones by name."""
 
 from pathlib import Path
 
-from proc3s import Completion, LLMError, Request, digest, runs
+from pydantic import BaseModel, ConfigDict, Field
+
+from proc3s import LLM, Completion, LLMError, Request
+from proc3s.recordings import read_recordings
 from proc3s_replay import answers
+from proc3s_replay.lookup import Lookup
 
 _WAYS_OUT = (
-    "ask a model with --llm PROVIDER/MODEL, or record an answer: every run keeps its answers, and "
-    "--llm replay:RUN plays them (--llm manual:DIR lets you write one yourself)"
+    "ask a model with --llm PROVIDER/MODEL and record its answers with --record PATH, which "
+    "--llm replay:PATH plays (--llm manual:DIR lets you write them yourself)"
 )
 
 
-class Replay:
-    """`path` is a folder of answer files or a run folder; empty: the answers bundled with the domain."""
+class Options(BaseModel):
+    """Which of the recorded answers are taken."""
 
-    def __init__(self, path: str, options: None) -> None:
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    repeat: int = Field(
+        default=0, ge=0, description="which answer, if the same prompt was answered several times; from 0"
+    )
+    lenient: bool = Field(
+        default=False, description="take an answer to feedback with other numbers too, and say so"
+    )
+
+
+class Replay(LLM):
+    """Plays a cassette, a folder of cassettes, a run folder, or a folder of answer files.
+
+    An empty `path` stands for the answer files bundled with the domain. Raises LLMError if there is nothing
+    at the path, or it is damaged.
+    """
+
+    live = False
+
+    def __init__(self, path: str, options: Options) -> None:
         self._path = Path(path) if path else None
-        if self._path is not None and not self._path.is_dir():
-            raise LLMError(f"there is no folder {self._path} to replay; {_WAYS_OUT}")
+        self._repeat = options.repeat
+        if self._path is not None and not self._path.exists():
+            raise LLMError(f"there is no {self._path} to replay; {_WAYS_OUT}", "no_answer")
+        recordings = read_recordings(self._path) if self._path else None
+        self._lookup = None
+        if self._path is not None and recordings is not None:
+            self._lookup = Lookup(self._path, recordings, options.repeat, options.lenient)
 
     def complete(self, request: Request) -> Completion:
         """The recorded or authored answer. Raises LLMError if it is missing or stale."""
-        if self._path is not None and (self._path / runs.LOG).is_file():
-            return self._from_run(self._path, request)
+        if self._lookup:
+            return self._lookup.answer(request)
         folder = self._path or request.bundled
         path = answers.find(folder, request) if folder else None
         if path is None:
@@ -30,20 +58,9 @@ class Replay:
             where = f"in {self._path}" if self._path else "bundled"
             raise LLMError(
                 f"no answer is {where} for {request.task} with the prompt {request.template!r}, "
-                f"seed {request.seed}, round {request.round} ({names}); {_WAYS_OUT}"
+                f"seed {request.seed}, round {request.round} ({names}); {_WAYS_OUT}",
+                "no_answer",
             )
+        if self._repeat:
+            raise LLMError(f"{path} is written once and has no repeat={self._repeat}", "no_answer")
         return answers.read(path)
-
-    def _from_run(self, run: Path, request: Request) -> Completion:
-        """An answer of a run, given to exactly the prompt of this request."""
-        prompts = {event["round"]: event["sha256"] for event in runs.events_of(run, "prompt_rendered")}
-        given = {event["round"]: event["completion"] for event in runs.events_of(run, "answer_received")}
-        if request.round not in given:
-            raise LLMError(f"{run} has no answer for round {request.round}; {_WAYS_OUT}")
-        if prompts.get(request.round) != digest(request.messages):
-            raise LLMError(
-                f"the answer of round {request.round} in {run} was given to another prompt; see it "
-                f"with `proc3s render-prompt {request.task} --diff {run}`, then {_WAYS_OUT}"
-            )
-        found = Completion.model_validate(given[request.round])
-        return found.model_copy(update={"source": "recorded"}) if found.source == "live" else found

@@ -2,25 +2,43 @@
 
 import json
 from pathlib import Path
+from typing import Any
 
-from proc3s import Completion, LLMError, Request
+from proc3s import LLM, Candidate, Completion, LLMError, Request
 
 
-class Stub:
-    """Answers with the texts of a JSON list, by round. Raises LLMError past its end."""
+class Stub(LLM):
+    """Answers with the elements of a JSON list, by round: a text, or a list of texts, the candidates.
+
+    Raises LLMError past its end.
+    """
+
+    live = False
 
     def __init__(self, path: str, options: None) -> None:
         try:
-            self._texts = json.loads(Path(path).read_text(encoding="utf-8"))
+            script = json.loads(Path(path).read_text(encoding="utf-8"))
         except (OSError, ValueError) as error:
             raise LLMError(f"the script {path!r} cannot be read: {error}") from error
-        if not isinstance(self._texts, list) or not all(isinstance(text, str) for text in self._texts):
-            raise LLMError(f"the script {path} must be a JSON list of texts")
+        self._rounds = [_candidates(element) for element in script] if isinstance(script, list) else []
+        if not isinstance(script, list) or not all(self._rounds):
+            raise LLMError(f"the script {path} must be a JSON list of texts, or of lists of texts")
 
     def complete(self, request: Request) -> Completion:
-        """The text of the round."""
-        if request.round >= len(self._texts):
-            raise LLMError(f"the script has {len(self._texts)} answers, none for round {request.round}")
-        return Completion(
-            text=self._texts[request.round], source="authored", model="stub", finish_reason="stop"
-        )
+        """As many candidates of the round as are wanted and there."""
+        if request.round >= len(self._rounds):
+            there = f"{len(self._rounds)} answers, none"
+            raise LLMError(f"the script has {there} for round {request.round}", "no_answer")
+        texts = self._rounds[request.round]
+        wanted = texts[request.candidate :][: request.sampling.n]
+        if not wanted:
+            there = f"{len(texts)} candidates for round {request.round}, none"
+            raise LLMError(f"the script has {there} with number {request.candidate}", "no_answer")
+        candidates = tuple(Candidate(text=text) for text in wanted)
+        return Completion(candidates=candidates, source="authored", model="stub")
+
+
+def _candidates(element: Any) -> list[str]:
+    """The texts of a round; none if it is something else."""
+    texts = element if isinstance(element, list) else [element]
+    return texts if all(isinstance(text, str) for text in texts) else []

@@ -40,18 +40,6 @@ class BatchSearch(ABC):
             self._batch, self._trials = self._batches.send(self._trials), []
 
 
-def progress(trial: Trial) -> float:
-    """How far a trial came, more is better: the steps before its violation, then how small that is.
-
-    The whole part counts the steps. A sample whose program failed comes last.
-    """
-    if trial.error is not None:
-        return -1.0
-    # The first violation only: a screen names no others, and the order must not depend on who rejected.
-    violation = -trial.violations[0].margin if trial.violations else 0.0
-    return trial.reached + 1 / (1 + max(violation, 0.0))
-
-
 def furthest(trials: Sequence[Trial]) -> Trial:
     """The trial with the most progress, the first of equals."""
-    return max(trials, key=progress)
+    return max(trials, key=lambda trial: trial.progress)

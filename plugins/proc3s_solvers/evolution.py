@@ -7,7 +7,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
 from proc3s import Space, Trial
-from proc3s_solvers.batches import Batches, BatchSearch, furthest, progress
+from proc3s_solvers.batches import Batches, BatchSearch, furthest
 from proc3s_solvers.sampling import BELOW_ONE
 
 if TYPE_CHECKING:
@@ -48,12 +48,12 @@ class Cma(BatchSearch):
         strategy = self._strategy(start, population)
         share = self._options.uniform
         extra = math.ceil(population * share / (1 - share))
-        best, idle, drawn = progress(start), 0, list[Trial]()
+        best, idle, drawn = start.progress, 0, list[Trial]()
         while idle < self._options.patience and not strategy.stop():
             points = strategy.ask()
             evolved = np.clip(np.array(points)[:, : self._dim], 0.0, BELOW_ONE)
             trials = yield np.vstack([evolved, self._rng.random((extra, self._dim))])
-            scores = [progress(trial) for trial in trials[:population]]
+            scores = [trial.progress for trial in trials[:population]]
             strategy.tell(points, [-score for score in scores])
             idle = 0 if max(scores) > best else idle + 1
             best = max(best, *scores)

@@ -15,9 +15,16 @@ if TYPE_CHECKING:
     from proc3s.errors import SpecError as SpecError
     from proc3s.errors import UsageError as UsageError
     from proc3s.executors import Executor as Executor
+    from proc3s.findings import Finding as Finding
+    from proc3s.llms import LLM as LLM
+    from proc3s.llms import Candidate as Candidate
     from proc3s.llms import Completion as Completion
     from proc3s.llms import Message as Message
+    from proc3s.llms import Price as Price
     from proc3s.llms import Request as Request
+    from proc3s.llms import Sampling as Sampling
+    from proc3s.llms import Usage as Usage
+    from proc3s.llms import answer as answer
     from proc3s.llms import digest as digest
     from proc3s.plugins import import_loose_file as import_loose_file
     from proc3s.plugins import loose_files as loose_files
@@ -27,6 +34,8 @@ if TYPE_CHECKING:
     from proc3s.rollouts import Rollouts as Rollouts
     from proc3s.samplers import Sampler as Sampler
     from proc3s.samplers import Space as Space
+    from proc3s.secrets import redacted as redacted
+    from proc3s.secrets import without_secrets as without_secrets
     from proc3s.solving import Solver as Solver
     from proc3s.specfile import load_domain as load_domain
     from proc3s.specs import ConstraintSpec as ConstraintSpec
@@ -55,11 +64,24 @@ _WHERE = {
     "domain": ("Domain",),
     "errors": ("LLMError", "Pending", "SpecError", "UsageError"),
     "executors": ("Executor",),
-    "llms": ("Completion", "Message", "Request", "digest"),
+    "findings": ("Finding",),
+    "llms": (
+        "LLM",
+        "Candidate",
+        "Completion",
+        "Message",
+        "Price",
+        "Request",
+        "Sampling",
+        "Usage",
+        "answer",
+        "digest",
+    ),
     "problem": ("Problem", "Trial", "rollout"),
     "plugins": ("import_loose_file", "loose_files"),
     "rollouts": ("Rollouts",),
     "samplers": ("Sampler", "Space"),
+    "secrets": ("redacted", "without_secrets"),
     "solving": ("Solver",),
     "specfile": ("load_domain",),
     "specs": (

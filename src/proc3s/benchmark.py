@@ -22,7 +22,7 @@ from proc3s.options import RunOptions, key_values, make_problem, make_setup
 from proc3s.problem import Problem, Trial
 from proc3s.registry import Registry
 from proc3s.samplers import Space
-from proc3s.solving import solve
+from proc3s.solving import Search
 from proc3s.specs import DomainSpec, ExecutorSpec
 
 _SCENE = "# scene:"
@@ -196,7 +196,8 @@ def _search(case: Case, way: Way, setup: Setup, sketch: Sketch) -> Measurement:
     space = _space(sketch)
     rng = np.random.default_rng(np.random.SeedSequence(problem.seed, spawn_key=(0,)))
     solver = setup.make_solver(space, problem.samples, rng)
-    found = solve(space, solver, meter.evaluator, problem.samples, lambda trials: None)
+    found = Search(space, solver, meter.evaluator)
+    found.advance(problem.samples)
     if found.broken_off is not None:
         raise found.broken_off
     error = str(found.halted) if found.halted else None

@@ -2,17 +2,26 @@
 
 import os
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+
+STAGES = ("llm", "solve", "execute")
+"""Stages of a run."""
 
 
 class Clock:
-    """Adds up the seconds spent inside `with clock("stage"):`; child processes count once they ended."""
+    """Adds up the seconds spent inside `with clock("stage"):`; child processes count once they ended.
 
-    def __init__(self, *stages: str) -> None:
+    `wall` and `cpu` are seconds by stage that went by before.
+    """
+
+    def __init__(
+        self, *stages: str, wall: Mapping[str, float] | None = None, cpu: Mapping[str, float] | None = None
+    ) -> None:
         self._begun = _now()
-        self.wall = dict.fromkeys(stages, 0.0)
-        self.cpu = dict(self.wall)
+        self.wall = dict.fromkeys(stages, 0.0) | dict(wall or {})
+        self.cpu = dict.fromkeys(stages, 0.0) | dict(cpu or {})
+        self._earlier = sum(self.wall.values()), sum(self.cpu.values())
 
     @contextmanager
     def __call__(self, stage: str) -> Iterator[None]:
@@ -26,8 +35,9 @@ class Clock:
             self.cpu[stage] += cpu
 
     def totals(self) -> tuple[float, float]:
-        """Wall and CPU seconds since the clock was made."""
-        return _since(self._begun)
+        """Wall and CPU seconds since the clock was made, and those that went by before."""
+        wall, cpu = _since(self._begun)
+        return self._earlier[0] + wall, self._earlier[1] + cpu
 
 
 def _now() -> tuple[float, float]:

@@ -1,9 +1,11 @@
 """Constraints: a margin for every transition, and the violations that negative margins are."""
 
+import dataclasses
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from numbers import Real
+from typing import Any
 
 import numpy as np
 
@@ -33,6 +35,11 @@ class Violation:
     skill: str
     margin: float
     text: str
+
+    def to_json(self) -> dict[str, Any]:
+        """The violation as it stands in logs; JSON has no infinite margin, so that is None."""
+        margin = self.margin if math.isfinite(self.margin) else None
+        return {**dataclasses.asdict(self), "margin": margin}
 
 
 def check(

@@ -2,12 +2,15 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TypeAlias
 
-from proc3s.events import AnswerReceived, Emit, PromptRendered
+from proc3s.asking import ask_all
+from proc3s.errors import LLMError
+from proc3s.events import AnswerReceived, Emit, PromptRendered, Warned
 from proc3s.feedback import Diagnosis
-from proc3s.llms import LLM, Message, Request, Source, digest
+from proc3s.llms import LLM, Completion, Message, Request, Sampling, Source, digest
 from proc3s.problem import Problem
 from proc3s.prompts import Prompter
 from proc3s.sketch.extract import extract_program
@@ -23,16 +26,20 @@ class Exchange:
 
 @dataclass(frozen=True)
 class Proposal:
-    """An answer, and how to get the program out of it (raises SketchError if it has none)."""
+    """An answer, and how to get the program out of it (raises SketchError if it has none).
+
+    `round` and `candidate` name the program in the log and seed its random draws.
+    """
 
     answer: str
     source: Source
     program: Callable[[], str]
     round: int = 0
-    """Names the round in the log and seeds its random draws."""
+    candidate: int = 0
 
 
-Propose: TypeAlias = Callable[[int, Sequence[Exchange]], Proposal]
+Propose: TypeAlias = Callable[[int, Sequence[Exchange]], Sequence[Proposal]]
+"""The programs of a round, by the rounds before it."""
 
 
 class Rounds:
@@ -84,26 +91,72 @@ def _shown(history: Sequence[Exchange], restart_after: int) -> tuple[Sequence[Ex
     return history[best : best + 1], [exchange.diagnosis for exchange in since]
 
 
-def ask_llm(llm: LLM, prompter: Prompter, problem: Problem, emit: Emit) -> Propose:
-    """A proposer that renders the conversation and asks a language model."""
+@dataclass(frozen=True)
+class Question:
+    """What every request of a run has in common; `seed` and number of candidates are in `sampling`."""
 
-    def propose(round_: int, history: Sequence[Exchange]) -> Proposal:
-        messages = conversation(prompter, problem, history)
-        emit(PromptRendered(round=round_, sha256=digest(messages), messages=messages))
-        completion = llm.complete(
-            Request(
-                messages=messages,
-                task=problem.name,
-                template=prompter.method.template,
-                seed=problem.seed,
-                round=round_,
-                bundled=_bundled(problem),
-            )
+    problem: Problem
+    prompter: Prompter
+    sampling: Sampling
+    jobs: int = 1
+    """Calls in flight."""
+
+    def request(self, round_: int, messages: tuple[Message, ...]) -> Request:
+        """The request for all candidates of a round."""
+        method = self.prompter.method
+        return Request(
+            messages=messages,
+            task=self.problem.name,
+            method=method.name,
+            template=method.template,
+            seed=self.problem.seed,
+            round=round_,
+            sampling=self.sampling,
+            bundled=_bundled(self.problem),
         )
-        emit(AnswerReceived(round=round_, completion=completion))
-        return Proposal(completion.text, completion.source, lambda: extract_program(completion.text), round_)
+
+
+def ask_llm(llm: LLM, question: Question, emit: Emit) -> Propose:
+    """A proposer that renders the conversation and asks a language model.
+
+    Where the model cannot take it all, only the latest round is shown; so it was in a recording that has
+    no answer to the whole.
+    """
+
+    def propose(round_: int, history: Sequence[Exchange]) -> Sequence[Proposal]:
+        try:
+            return ask(round_, history)
+        except LLMError as error:
+            if len(history) < 2 or error.fault not in ("context", "no_answer"):
+                raise
+            try:
+                proposals = ask(round_, history[-1:])
+            except LLMError as again:
+                raise (again if error.fault == "context" else error) from error
+            emit(Warned(round=round_, text="the conversation is too long: only its latest round was shown"))
+            return proposals
+
+    def ask(round_: int, history: Sequence[Exchange]) -> Sequence[Proposal]:
+        messages = conversation(question.prompter, question.problem, history)
+        emit(PromptRendered(round=round_, sha256=digest(messages), messages=messages))
+        request = question.request(round_, messages)
+        proposals: list[Proposal] = []
+        for completion in ask_all(
+            llm, request, question.jobs, lambda text: emit(Warned(round=round_, text=text))
+        ):
+            emit(AnswerReceived(round=round_, candidate=len(proposals), completion=completion))
+            proposals += proposals_of(completion, round_, len(proposals))
+        return proposals
 
     return propose
+
+
+def proposals_of(completion: Completion, round_: int, first: int = 0) -> list[Proposal]:
+    """The candidates of an answer, numbered from `first`."""
+    return [
+        Proposal(c.text, completion.source, partial(extract_program, c.text), round_, number)
+        for number, c in enumerate(completion.candidates, start=first)
+    ]
 
 
 def _bundled(problem: Problem) -> Path | None:
@@ -112,6 +165,7 @@ def _bundled(problem: Problem) -> Path | None:
     return folder / "answers" if folder and problem.goal == problem.task.instruction else None
 
 
-def given_program(program: str, origin: Source = "none", round_: int = 0) -> Propose:
-    """A proposer of one program that is there already; `round_` says whose random draws it takes."""
-    return lambda _, history: Proposal(program, origin, lambda: program, round_)
+def given_program(program: str, origin: Source = "none", round_: int = 0, candidate: int = 0) -> Propose:
+    """A proposer of one program that is there already; `round_` and `candidate` say whose random draws it
+    takes."""
+    return lambda _, history: [Proposal(program, origin, lambda: program, round_, candidate)]

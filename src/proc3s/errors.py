@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from difflib import get_close_matches
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 
 class Proc3sError(Exception):
@@ -18,10 +18,45 @@ class UsageError(Proc3sError):
     """A wrong name, option or file on the command line (exit code 2)."""
 
 
+Fault = Literal[
+    "missing_key",  # found before the call
+    "auth",
+    "quota",  # paid-for tokens are used up
+    "unknown_model",
+    "context",  # the conversation is too long for the model
+    "filtered",
+    "cut_off",  # the answer is longer than max_tokens
+    "no_answer",  # nothing was recorded for this request, or for another prompt
+    "rate_limit",
+    "timeout",
+    "connection",
+    "server",
+    "broken",  # not what the protocol promises
+    "empty",
+    "other",
+]
+TRANSIENT: frozenset[Fault] = frozenset({"rate_limit", "timeout", "connection", "server", "broken", "empty"})
+"""Faults after which the same request may succeed."""
+
+
 class LLMError(Proc3sError):
-    """The language model could not be asked or did not answer (exit code 3)."""
+    """The language model could not be asked or did not answer (exit code 3).
+
+    `fault` decides what happens next; `retry_after` are the seconds that the provider asks to wait.
+    """
 
     exit_code: ClassVar[int] = 3
+
+    def __init__(self, message: str, fault: Fault = "other", retry_after: float | None = None) -> None:
+        super().__init__(message)
+        self.fault: Fault = fault
+        self.retry_after = retry_after
+
+
+class BudgetSpent(Proc3sError):
+    """What may be spent on language models is spent; the run ends with what it has (exit code 1)."""
+
+    exit_code: ClassVar[int] = 1
 
 
 class Pending(Proc3sError):

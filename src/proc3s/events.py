@@ -20,16 +20,33 @@ class Event(BaseModel):
     event: str
 
 
+class OfProgram(Event):
+    """An event of one of the programs that were proposed in a round."""
+
+    round: int
+    candidate: int = 0
+
+
 class RunStarted(Event):
     """A run begins; `options` are enough to repeat it."""
 
     event: Literal["run_started"] = "run_started"
+    id: str = ""
+    """Names the run among all others; it keeps it when it is resumed."""
     options: dict[str, Any]
     versions: dict[str, str]
     samples: int
     """Samples that a round may take."""
     scene: str
     """The initial state as JSON."""
+
+
+class RunResumed(Event):
+    """A run goes on in another process: what is changed in its options, and with which versions."""
+
+    event: Literal["run_resumed"] = "run_resumed"
+    options: dict[str, Any]
+    versions: dict[str, str]
 
 
 class PromptRendered(Event):
@@ -41,36 +58,50 @@ class PromptRendered(Event):
     messages: tuple[Message, ...]
 
 
-class AnswerReceived(Event):
-    """The answer of a round."""
+class CallFailed(Event):
+    """A call to the LLM that failed in passing; it is repeated after `wait` seconds."""
+
+    event: Literal["call_failed"] = "call_failed"
+    round: int
+    fault: str
+    message: str
+    wait: float
+
+
+class Warned(Event):
+    """Something that a person should know while the run goes on."""
+
+    event: Literal["warned"] = "warned"
+    round: int
+    text: str
+
+
+class AnswerReceived(OfProgram):
+    """An answer; `candidate` is the number of its first candidate, the others follow it."""
 
     event: Literal["answer_received"] = "answer_received"
-    round: int
     completion: Completion
 
 
-class ProgramExtracted(Event):
-    """The program found in the answer."""
+class ProgramExtracted(OfProgram):
+    """The program found in an answer."""
 
     event: Literal["program_extracted"] = "program_extracted"
-    round: int
     source: str
 
 
-class SketchLoaded(Event):
+class SketchLoaded(OfProgram):
     """The program passed its contract check; these are its open parameters."""
 
     event: Literal["sketch_loaded"] = "sketch_loaded"
-    round: int
     parameters: dict[str, str]
     log: str = ""
 
 
-class BatchEvaluated(Event):
+class BatchEvaluated(OfProgram):
     """Trials of one batch as columns; equal positions belong to one sample."""
 
     event: Literal["batch_evaluated"] = "batch_evaluated"
-    round: int
     first: int
     u: list[list[float]]
     accepted: list[bool]
@@ -81,11 +112,12 @@ class BatchEvaluated(Event):
     margin: list[float | None]
 
     @classmethod
-    def from_trials(cls, round_: int, trials: Sequence[Trial]) -> "BatchEvaluated":
+    def from_trials(cls, round_: int, candidate: int, trials: Sequence[Trial]) -> "BatchEvaluated":
         """The columns of a batch that is not empty."""
         firsts = [trial.violations[0] if trial.violations else None for trial in trials]
         return cls(
             round=round_,
+            candidate=candidate,
             first=trials[0].index,
             u=[list(trial.u) for trial in trials],
             accepted=[trial.accepted for trial in trials],
@@ -104,37 +136,51 @@ def _kind(trial: Trial, constraint: str | None) -> str | None:
     return type(trial.error).__name__ if trial.error else constraint
 
 
-class Audited(Event):
+class Audited(OfProgram):
     """Rejects of screens that were put to the world: how many, and those it accepts."""
 
     event: Literal["audited"] = "audited"
-    round: int
     checked: int
     wrong: list[dict[str, Any]]
 
     @classmethod
-    def of(cls, round_: int, findings: Findings) -> "Audited":
-        """The findings of one round."""
+    def of(cls, round_: int, candidate: int, findings: Findings) -> "Audited":
+        """The findings on the samples of one program."""
         wrong = [
             {"plan": [action.to_json() for action in plan], "rejected_for": violation.text}
             for plan, violation in findings.wrong
         ]
-        return cls(round=round_, checked=findings.checked, wrong=wrong)
+        return cls(round=round_, candidate=candidate, checked=findings.checked, wrong=wrong)
 
 
-class RoundEnded(Event):
-    """A round without an accepted plan, and why."""
+class AttemptEnded(OfProgram):
+    """What one program came to; enough to go on with the run in another process."""
+
+    event: Literal["attempt_ended"] = "attempt_ended"
+    diagnosis: Diagnosis
+    samples: int
+    evaluations: int
+    rejected_by: dict[str, int]
+    fallback: list[dict[str, Any]] | None
+    """The plan that is executed if no other comes."""
+    nearest: dict[str, Any] | None
+    """The plan that came furthest, and what it violates."""
+
+
+class RoundEnded(OfProgram):
+    """A round without an accepted plan, and why its best program failed; that goes into the next question."""
 
     event: Literal["round_ended"] = "round_ended"
-    round: int
     diagnosis: Diagnosis
+    seconds: dict[str, float]
+    """Wall seconds by stage up to here."""
+    cpu_seconds: dict[str, float]
 
 
-class PlanExecuted(Event):
+class PlanExecuted(OfProgram):
     """The plan that was carried out, what it violated, and the judge's verdict."""
 
     event: Literal["plan_executed"] = "plan_executed"
-    round: int
     executed: Literal["solution", "fallback"]
     plan: list[dict[str, Any]]
     violations: list[dict[str, Any]]

@@ -1,6 +1,5 @@
 """Execution: the plan is carried out open loop, and the judges look at the result."""
 
-import dataclasses
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
@@ -27,12 +26,12 @@ def execute(
     problem: Problem,
     plan: Plan,
     executed: Literal["solution", "fallback"],
-    round_: int,
+    place: tuple[int, int],
     picture: Path | None,
     emit: Emit,
 ) -> Execution:
     """Carry a plan out in the execution world without stopping at violations; `picture` takes a PNG.
-    `round_` is the round whose program the plan is from.
+    `place` is the round and the candidate whose program the plan is from.
 
     A fallback that turns out to violate nothing is a solution.
     """
@@ -48,10 +47,11 @@ def execute(
     score, reason = judge(problem, final, plan)
     emit(
         PlanExecuted(
-            round=round_,
+            round=place[0],
+            candidate=place[1],
             executed=executed,
             plan=[action.to_json() for action in plan],
-            violations=[dataclasses.asdict(violation) for violation in trial.violations],
+            violations=[violation.to_json() for violation in trial.violations],
             goal_reached=score.reached if score else None,
             goal_reason=reason,
         )

@@ -1,63 +1,135 @@
-"""Language models as typed data: messages in, a completion out. The backends are plugins."""
+"""Language models as typed data: messages in, candidates out. The backends are plugins."""
 
 import hashlib
 import json
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Literal, Protocol
+from typing import Literal
 
-from pydantic import BaseModel, ConfigDict
+from pydantic import BaseModel, ConfigDict, Field
 
 Source = Literal["live", "recorded", "authored", "manual", "none"]
 Role = Literal["system", "user", "assistant"]
+Kind = Literal["system", "example", "task", "reply", "feedback"]
+Effort = Literal["minimal", "low", "medium", "high"]
 
 
-class Message(BaseModel):
-    """One message of a conversation; `kind` says which part of it this is."""
+class _Data(BaseModel):
+    model_config = ConfigDict(frozen=True, extra="forbid")
 
-    model_config = ConfigDict(frozen=True)
+
+class Message(_Data):
+    """One message of a conversation; `kind` says which part of it this is.
+
+    System message and examples are the same for every task of a domain, and always come first.
+    """
 
     role: Role
-    kind: Literal["system", "example", "task", "reply", "feedback"]
+    kind: Kind
     text: str
 
 
-class Request(BaseModel):
-    """What is asked, and which answer of which run it is: that is how replayed answers are found."""
+class Sampling(_Data):
+    """How answers are drawn. None leaves it to the provider."""
 
-    model_config = ConfigDict(frozen=True)
+    temperature: float | None = None
+    seed: int | None = None
+    n: int = Field(default=1, ge=1)
+    """Candidates wanted in one answer."""
+    max_tokens: int | None = Field(default=None, ge=1)
+    """Longest answer."""
+    reasoning_effort: Effort | None = None
+
+
+class Request(_Data):
+    """What is asked, and which answer of which run it is: that is how recorded answers are found."""
 
     messages: tuple[Message, ...]
     task: str
     """`domain/task`."""
+    method: str
     template: str
-    """Name of the method's prompt template; methods that share it share their answers."""
+    """Name of the method's prompt template; methods that share it share their authored answers."""
     seed: int
+    """Seed of the run."""
     round: int = 0
     candidate: int = 0
+    """Number of the first candidate that is wanted; `sampling.n` of them in all."""
+    sampling: Sampling = Sampling()
     bundled: Path | None = None
     """Folder of the answers that the domain brings."""
 
 
-class Completion(BaseModel):
-    """An answer and where it is from. Unknown figures are None, never 0."""
+class Usage(_Data):
+    """Tokens of a call as the provider counted them; None is unknown, never 0."""
 
-    model_config = ConfigDict(frozen=True)
-
-    text: str
-    source: Source
-    model: str
-    finish_reason: str | None = None
     prompt_tokens: int | None = None
     completion_tokens: int | None = None
+    cached_tokens: int | None = None
+    """Tokens of the prompt that the provider had in its cache."""
 
 
-class LLM(Protocol):
-    """A language model. `complete` raises LLMError when there is no answer."""
+class Candidate(_Data):
+    """One answer to a request; `finish_reason` "length" says that it was cut off."""
 
+    text: str
+    finish_reason: str | None = "stop"
+
+
+class Completion(_Data):
+    """What a call brought: at least one candidate, and where it is from. Unknown figures are None."""
+
+    candidates: tuple[Candidate, ...]
+    source: Source = "live"
+    model: str
+    """The model that answered, as it calls itself."""
+    model_asked: str | None = None
+    """The model that was asked for, where that may be another."""
+    usage: Usage = Usage()
+    cost: float | None = Field(default=None, ge=0)
+    """US dollars."""
+    latency: float | None = None
+    """Seconds that the provider took when it was asked; a replay keeps the figure of then."""
+    attempts: int = 1
+    """Calls it took, those that failed included."""
+    dropped: tuple[str, ...] = ()
+    """Parameters of `Sampling` that the provider does not take."""
+    notes: tuple[str, ...] = ()
+    """What a person should be told."""
+
+    @property
+    def text(self) -> str:
+        """The first candidate's."""
+        return self.candidates[0].text
+
+
+def answer(text: str, model: str, source: Source = "live") -> Completion:
+    """The plainest completion: one whole text."""
+    return Completion(candidates=(Candidate(text=text),), source=source, model=model)
+
+
+class Price(_Data):
+    """US dollars for a million tokens."""
+
+    prompt: float = Field(ge=0)
+    completion: float = Field(ge=0)
+
+
+class LLM(ABC):
+    """A language model. Backends inherit this and write `complete`; failures are retried around it."""
+
+    live = True
+    """Whether asking costs: calls, tokens, money."""
+    price: Price | None = None
+    """None if it is not known."""
+
+    @abstractmethod
     def complete(self, request: Request) -> Completion:
-        """The answer to a request."""
-        ...
+        """One call. Raises LLMError, whose `fault` says whether trying again may help.
+
+        Fewer candidates than `request.sampling.n` may come back; the others are asked for one by one.
+        """
 
 
 def digest(messages: Sequence[Message]) -> str:

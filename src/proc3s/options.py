@@ -1,8 +1,8 @@
 """Options of a run as plain data, and the wiring of the chosen plugins into a `Setup`."""
 
 import dataclasses
-import importlib
 import json
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -10,11 +10,11 @@ import numpy as np
 from pydantic import BaseModel, Field, TypeAdapter, ValidationError
 
 from proc3s import specs
+from proc3s.budget import Budget
 from proc3s.domain import Domain
 from proc3s.errors import UsageError, did_you_mean
 from proc3s.executors import Executor
 from proc3s.grounding import Setup
-from proc3s.llms import LLM
 from proc3s.problem import Problem
 from proc3s.prompts import Prompter
 from proc3s.registry import Registry
@@ -23,7 +23,6 @@ from proc3s.sketch.limits import Limits
 from proc3s.solving import Solver
 from proc3s.specfile import scalar, validate
 
-DEFAULT_LLM = "replay"
 DEFAULT_SOLVER = "rejection"
 DEFAULT_PRESET = "best"
 
@@ -32,7 +31,7 @@ class RunOptions(specs.Spec):
     """What a run was asked to do; with the same options it does the same again."""
 
     task: str
-    llm: str = DEFAULT_LLM
+    llm: str | None = None
     method: str = "proc3s"
     solver: str | None = None
     preset: str = DEFAULT_PRESET
@@ -53,6 +52,10 @@ class RunOptions(specs.Spec):
     no_screens: bool = False
     audit: int = Field(0, ge=0)
     check_goal: bool | None = None
+    candidates: int = Field(1, ge=1)
+    llm_jobs: int = Field(1, ge=1)
+    record: Path | None = None
+    budget: Budget = Budget()
 
 
 def key_values(pairs: list[str]) -> dict[str, str]:
@@ -164,30 +167,20 @@ def make_limits(given: dict[str, str]) -> Limits:
     return limits
 
 
-def part_options(spec: specs.SolverSpec | specs.LLMSpec, given: dict[str, str]) -> BaseModel | None:
+def options_model(spec: specs.SolverSpec | specs.LLMSpec) -> type[BaseModel] | None:
+    """The pydantic model of the options of a solver or backend. Raises SpecError if it cannot be imported."""
+    if spec.options is None:
+        return None
+    found: type[BaseModel] = specs.Target(target=spec.options).load()
+    return found
+
+
+def part_options(spec: specs.SolverSpec | specs.LLMSpec, given: Mapping[str, str]) -> BaseModel | None:
     """The options of a solver or backend, validated by its own model. Raises SpecError or UsageError."""
     where = f"{spec.kind.removesuffix('s')} {spec.name}"
-    if spec.options is None:
+    model = options_model(spec)
+    if model is None:
         if given:
-            raise UsageError(f"{where} takes no options, not {next(iter(given))!r}")
+            raise UsageError(f"{where} takes no option {next(iter(given))!r}")
         return None
-    module, _, name = spec.options.partition(":")
-    model: type[BaseModel] = getattr(importlib.import_module(module), name)
     return validate(model, given, where)
-
-
-def make_llm(registry: Registry, options: RunOptions) -> LLM:
-    """The backend that `--llm` names: `NAME`, `NAME:ARGUMENT`, `NAME/MODEL`, or what a plugin resolves."""
-    known = registry.all(specs.LLMSpec)
-    for separator in (":", "/"):
-        name, _, rest = options.llm.partition(separator)
-        if name in known:
-            break
-    else:
-        found = registry.plugins.resolve_llm(options.llm)
-        if not isinstance(found, specs.LLMSpec):
-            hint = did_you_mean(options.llm, known)
-            raise UsageError(f"there is no LLM {options.llm!r}{hint} or PROVIDER/MODEL")
-        name, rest, known = found.name, options.llm, {found.name: found}
-    llm: LLM = known[name].load()(rest, part_options(known[name], options.llm_options))
-    return llm

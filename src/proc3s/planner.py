@@ -1,140 +1,121 @@
 """The two-stage loop: a task becomes a program, a program becomes a plan that a world has accepted.
 
-Read this first. Stage 1: `propose` asks for a program (`conversation.py`). Stage 2: the program runs in its
-box (`sketch/`), a solver draws its open parameters (`solving.py`), every grounded plan is rolled out in the
-world (`problem.py`). If no sample is accepted, a diagnosis of the failures goes into the next question.
+Read this first. Stage 1: `propose` asks for programs (`conversation.py`). Stage 2: each program runs in its
+box (`sketch/`), a solver draws its open parameters (`rounds.py`, `solving.py`), every grounded plan is rolled
+out in the world (`problem.py`). If no sample is accepted, a diagnosis of the failures goes into the next
+question.
 """
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Sequence
+from dataclasses import dataclass
 
-import numpy as np
-
-from proc3s.audit import Audit
-from proc3s.clock import Clock
-from proc3s.conversation import Exchange, Proposal, Propose, Rounds
-from proc3s.errors import Interrupted, Proc3sError
-from proc3s.evaluation import Evaluator
-from proc3s.events import Audited, BatchEvaluated, Emit, ProgramExtracted, RoundEnded, SketchLoaded
+from proc3s.clock import STAGES, Clock
+from proc3s.conversation import Proposal, Propose, Rounds
+from proc3s.errors import BudgetSpent, Interrupted, Proc3sError
+from proc3s.events import Emit, RoundEnded
 from proc3s.execution import Execution, execute
-from proc3s.feedback import Diagnosis, diagnose
-from proc3s.grounding import Opened, Repeatable, Setup, open_sketch
-from proc3s.influence import influence
-from proc3s.problem import Trial
+from proc3s.grounding import Setup
+from proc3s.rounds import Attempt, Round, run_round
 from proc3s.sketch.box import prewarm
-from proc3s.sketch.errors import SketchError
-from proc3s.solving import Search, solve
-from proc3s.state import Plan, source_text
-
-
-@dataclass(frozen=True)
-class Attempt:
-    """What one program came to: the accepted trial, or a plan to fall back on, and a diagnosis."""
-
-    diagnosis: Diagnosis
-    solution: Trial | None = None
-    fallback: Plan | None = None
-    broken_off: Proc3sError | None = None
-    samples: int = 0
-    evaluations: int = 0
-    rejected_by: Mapping[str, int] = field(default_factory=dict)
-    round: int = 0
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a run came to. `rounds` counts feedback rounds; `error` is why it did not come to its end."""
+    """What a run came to. `feedback` counts feedback rounds; `error` is why it did not come to its end."""
 
-    attempts: tuple[Attempt, ...]
+    rounds: tuple[Round, ...]
     proposals: tuple[Proposal, ...]
-    rounds: int
+    feedback: int
     execution: Execution | None
     clock: Clock
     error: Proc3sError | None = None
 
+    @property
+    def attempts(self) -> tuple[Attempt, ...]:
+        """What every program of every round came to."""
+        return tuple(attempt for round_ in self.rounds for attempt in round_.attempts)
 
-def plan(setup: Setup, propose: Propose, emit: Emit) -> Outcome:
-    """Ask, search, and ask again with feedback, until a plan is accepted or the rounds are used up."""
-    clock = Clock("llm", "solve", "execute")
-    proposals: list[Proposal] = []
-    attempts: list[Attempt] = []
-    history: list[Exchange] = []
-    rounds = Rounds(setup.method.rounds, setup.preset.repairs)
-    execution, error = None, None
-    try:
-        while rounds.left:
+
+class Run:
+    """A run under way: the rounds so far, of which `past` were done in an earlier process."""
+
+    def __init__(
+        self, setup: Setup, propose: Propose, emit: Emit, past: Sequence[Round], clock: Clock
+    ) -> None:
+        self._setup = setup
+        self._propose = propose
+        self._emit = emit
+        self._clock = clock
+        self._left = Rounds(setup.method.rounds, setup.preset.repairs)
+        self._rounds = list(past)
+        self._proposals = [proposal for round_ in past for proposal in round_.proposals]
+        for round_ in past:
+            self._left.spend(repair=not round_.samples)
+
+    def outcome(self) -> Outcome:
+        """Carry the run to its end."""
+        execution: Execution | None = None
+        error: Proc3sError | None = None
+        try:
+            try:
+                self._search()
+            except BudgetSpent as reason:
+                error = reason
+            with self._clock("execute"):
+                execution = self._execute()
+        except Proc3sError as reason:
+            error = reason
+        except KeyboardInterrupt:
+            error = Interrupted("interrupted")
+        rounds, proposals = tuple(self._rounds), tuple(self._proposals)
+        return Outcome(rounds, proposals, self._left.used, execution, self._clock, error)
+
+    def _search(self) -> None:
+        """Ask, search, and ask again with feedback, until a plan is accepted or the rounds are used up."""
+        setup = self._setup
+        while self._left.left:
             prewarm(setup.limits, setup.locked)
-            with clock("llm"):
-                proposals.append(propose(len(history), history))
-            with clock("solve"):
-                attempts.append(attempt := _attempt(setup, proposals[-1], emit))
-            if attempt.broken_off:
-                raise attempt.broken_off
-            if attempt.solution or (setup.method.samples == "none" and attempt.fallback):
-                break
-            rounds.spend(repair=not attempt.samples)
-            emit(RoundEnded(round=len(history), diagnosis=attempt.diagnosis))
-            history.append(Exchange(proposals[-1].answer, attempt.diagnosis))
-        with clock("execute"):
-            execution = _execute(setup, attempts, emit)
-    except Proc3sError as reason:
-        error = reason
-    except KeyboardInterrupt:
-        error = Interrupted("interrupted")
-    return Outcome(tuple(attempts), tuple(proposals), rounds.used, execution, clock, error)
+            with self._clock("llm"):
+                proposals = self._propose(len(self._rounds), [round_.exchange for round_ in self._rounds])
+            self._proposals += proposals
+            with self._clock("solve"):
+                self._rounds.append(latest := run_round(setup, proposals, self._emit))
+            for attempt in latest.attempts:
+                if attempt.broken_off:
+                    raise attempt.broken_off
+            if any(a.solution or (setup.method.samples == "none" and a.fallback) for a in latest.attempts):
+                return
+            self._left.spend(repair=not latest.samples)
+            self._emit(self._ended(latest))
+
+    def _ended(self, latest: Round) -> RoundEnded:
+        return RoundEnded(
+            round=len(self._rounds) - 1,
+            candidate=latest.best,
+            diagnosis=latest.attempts[latest.best].diagnosis,
+            seconds=dict(self._clock.wall),
+            cpu_seconds=dict(self._clock.cpu),
+        )
+
+    def _execute(self) -> Execution | None:
+        """Carry out the accepted plan, or the latest one to fall back on, and let the judge look."""
+        if not self._rounds:
+            return None
+        setup, latest = self._setup, self._rounds[-1]
+        winner = latest.attempts[latest.best]
+        if winner.solution and winner.solution.plan:
+            place = (winner.round, winner.candidate)
+            return execute(setup.problem, winner.solution.plan, "solution", place, setup.picture, self._emit)
+        ranked = (round_.attempts[i] for round_ in reversed(self._rounds) for i in round_.ranking)
+        usable = next((attempt for attempt in ranked if attempt.fallback), None)
+        if usable is None or usable.fallback is None:
+            return None
+        place = (usable.round, usable.candidate)
+        return execute(setup.problem, usable.fallback, "fallback", place, setup.picture, self._emit)
 
 
-def _attempt(setup: Setup, proposal: Proposal, emit: Emit) -> Attempt:
-    """Ground one program: check it, search its parameters, diagnose what failed."""
-    try:
-        source = proposal.program()
-        emit(ProgramExtracted(round=proposal.round, source=source))
-        setup = replace(setup, problem=replace(setup.problem, program=source))
-        with open_sketch(setup) as opened:
-            prewarm(setup.limits, setup.locked)  # confirms the winner, or serves the next round
-            samplers = opened.sketch.space.samplers.items()
-            parameters = {name: source_text(sampler) for name, sampler in samplers}
-            emit(SketchLoaded(round=proposal.round, parameters=parameters, log=opened.log))
-            return _search(setup, opened, proposal.round, emit)
-    except SketchError as error:
-        return Attempt(diagnose((), error), round=proposal.round)
-
-
-def _search(setup: Setup, opened: Opened, round_: int, emit: Emit) -> Attempt:
-    budget = {"none": 0, "one": 1, "budget": setup.problem.samples}[setup.method.samples]
-    audit = Audit(setup.audit, setup.problem.seed) if setup.audit else None
-    evaluator = Evaluator(setup.problem, opened.sketch, setup.executor, Repeatable(setup), audit)
-    # A key of its own for every round, so that no search draws the numbers that made the scene.
-    rng = np.random.default_rng(np.random.SeedSequence(setup.problem.seed, spawn_key=(round_,)))
-    space = replace(opened.sketch.space, probe=lambda: influence(opened.sketch))
-    search: Search = solve(
-        space,
-        setup.make_solver(space, budget, rng),
-        evaluator,
-        budget,
-        lambda trials: emit(BatchEvaluated.from_trials(round_, trials)) if trials else None,
-    )
-    if audit and not search.broken_off:
-        emit(Audited.of(round_, audit.check(setup.problem, setup.executor)))
-    return Attempt(
-        diagnosis=diagnose(search.trials, search.halted, setup.problem, space),
-        solution=search.solution,
-        fallback=opened.plan if setup.method.fallback == "last_plan" else None,
-        broken_off=search.broken_off,
-        samples=evaluator.samples,
-        evaluations=evaluator.evaluations,
-        rejected_by=dict(evaluator.rejected_by),
-        round=round_,
-    )
-
-
-def _execute(setup: Setup, attempts: list[Attempt], emit: Emit) -> Execution | None:
-    """Carry out the accepted plan, or the latest one to fall back on, and let the judge look."""
-    last = attempts[-1]
-    if last.solution and last.solution.plan:
-        return execute(setup.problem, last.solution.plan, "solution", last.round, setup.picture, emit)
-    usable = [(attempt.fallback, attempt.round) for attempt in attempts if attempt.fallback]
-    if not usable:
-        return None
-    fallback, round_ = usable[-1]
-    return execute(setup.problem, fallback, "fallback", round_, setup.picture, emit)
+def plan(
+    setup: Setup, propose: Propose, emit: Emit, past: Sequence[Round] = (), clock: Clock | None = None
+) -> Outcome:
+    """Solve a problem; `past` are rounds that were done already, `clock` has the seconds that they took."""
+    return Run(setup, propose, emit, past, clock or Clock(*STAGES)).outcome()

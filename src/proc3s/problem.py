@@ -125,6 +125,18 @@ class Trial:
         """Whether the world carried the plan out without a violation."""
         return self.plan is not None and not self.violations
 
+    @property
+    def progress(self) -> float:
+        """How far the sample came, more is better: the steps before its violation, then how small that is.
+
+        The whole part counts the steps. A sample whose program failed comes last, with -1.
+        """
+        if self.error is not None:
+            return -1.0
+        # The first violation only: a screen names no others, and the order must not depend on who rejected.
+        violation = -self.violations[0].margin if self.violations else 0.0
+        return self.reached + 1 / (1 + max(violation, 0.0))
+
 
 def rollout(world: World[Any], problem: Problem, plan: Plan, prefixes: Prefixes | None = None) -> Trial:
     """Carry a plan out in a world up to its first violating step; the goal is the last step if it counts.

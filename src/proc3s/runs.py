@@ -1,8 +1,10 @@
 """Run folders: an append-only log of events beside the files a person opens first."""
 
 import contextlib
+import fcntl
 import itertools
 import json
+import os
 import platform
 import re
 from collections.abc import Mapping
@@ -29,18 +31,21 @@ LOG = "events.jsonl"
 class RunFolder:
     """Writes a run as it happens. Every line is whole when written, so a killed run can be read.
 
-    Raises UsageError if the folder cannot be made, or has something in it.
+    With `resume` it goes on with the log that is there. Raises UsageError if the folder cannot be written,
+    has something in it that should not be there, or another process writes it.
     """
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, resume: bool = False) -> None:
         self.path = path
         try:
             path.mkdir(parents=True, exist_ok=True)
-            if _is_pending(path):
-                _clear(path)
-            if any(path.iterdir()):
-                raise UsageError(f"the folder {path} is not empty; give another one with --out")
+            if not resume and any(path.iterdir()):
+                raise UsageError(f"the folder {path} is not empty; give another --out, or --resume {path}")
             self._log = (path / LOG).open("a", encoding="utf-8", errors="backslashreplace")
+            fcntl.flock(self._log, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            _mend(path / LOG)
+        except BlockingIOError as error:
+            raise UsageError(f"another process is at work in {path}") from error
         except OSError as error:
             raise UsageError(f"the run folder {path} cannot be written: {error.strerror}") from error
 
@@ -52,9 +57,10 @@ class RunFolder:
         if isinstance(event, PromptRendered):
             self._write(f"prompt-{event.round}.md", markdown(event.messages))
         elif isinstance(event, AnswerReceived):
-            self._write(f"answer-{event.round}.md", event.completion.text)
+            for number, candidate in enumerate(event.completion.candidates, start=event.candidate):
+                self._write(f"answer-{_name(event.round, number)}.md", candidate.text)
         elif isinstance(event, ProgramExtracted):
-            self._write(f"program-{event.round}.py", event.source)
+            self._write(f"program-{_name(event.round, event.candidate)}.py", event.source)
         elif isinstance(event, PlanExecuted):
             self._write("plan.json", _pretty(event.plan))
             score = {"goal_reached": event.goal_reached, "goal_reason": event.goal_reason}
@@ -73,19 +79,15 @@ class RunFolder:
         self._log.close()
 
 
-def _is_pending(path: Path) -> bool:
-    """Whether the run in a folder ended while it waited for a person's answer."""
-    if not (path / LOG).is_file():
-        return False
-    ended = events_of(path, "run_ended")
-    return bool(ended) and str(ended[0]["summary"].get("error")).startswith("pending")
+def _mend(log: Path) -> None:
+    """Take away a last line that was cut off."""
+    data = log.read_bytes()
+    if not data.endswith(b"\n"):
+        os.truncate(log, data.rfind(b"\n") + 1)
 
 
-def _clear(path: Path) -> None:
-    """Make room for the run that goes on where a pending one stopped; it writes the same files again."""
-    for pattern in (LOG, "summary.json", "prompt-*.md", "answer-*.md", "program-*.py"):
-        for file in path.glob(pattern):
-            file.unlink()
+def _name(round_: int, candidate: int) -> str:
+    return f"{round_}.{candidate}" if candidate else str(round_)
 
 
 def _pretty(data: Any) -> str:

@@ -1,7 +1,7 @@
-"""Solvers propose samples and learn from trials; `solve` is the loop around them."""
+"""Solvers propose samples and learn from trials; a `Search` is the loop around one, `race` around several."""
 
+import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
@@ -26,66 +26,97 @@ class Solver(Protocol):
         ...
 
 
-@dataclass(frozen=True)
 class Search:
-    """What a search found: every trial in order, the accepted one, or why it was stopped.
+    """One program's search, which can be continued: every trial in order, and what stopped it.
 
-    `halted` is the program's own fault, `broken_off` is not.
+    `halted` is the program's own fault, `broken_off` is not. `report` sees the trials batch by batch.
     """
 
-    trials: tuple[Trial, ...]
-    halted: SketchError | None = None
-    broken_off: Proc3sError | None = None
+    def __init__(
+        self,
+        space: Space,
+        solver: Solver,
+        evaluator: Evaluator,
+        report: Callable[[Sequence[Trial]], None] = lambda trials: None,
+    ) -> None:
+        self.space = space
+        self._solver = solver
+        self._evaluator = evaluator
+        self._report = report
+        self._exhausted = False
+        self.trials: list[Trial] = []
+        self.halted: SketchError | None = None
+        self.broken_off: Proc3sError | None = None
 
     @property
     def solution(self) -> Trial | None:
         """The accepted trial; it is always the last."""
         return self.trials[-1] if self.trials and self.trials[-1].accepted else None
 
+    @property
+    def over(self) -> bool:
+        """Whether going on is of no use: solved, stopped, or nothing left to ask."""
+        return bool(self._exhausted or self.solution or self.halted or self.broken_off)
 
-def solve(
-    space: Space,
-    solver: Solver,
-    evaluator: Evaluator,
-    budget: int,
-    report: Callable[[Sequence[Trial]], None],
-) -> Search:
-    """Search until a trial is accepted, `budget` samples are spent, or the solver gives up.
+    @property
+    def progress(self) -> float:
+        """That of the best trial; -1 without any."""
+        return max((trial.progress for trial in self.trials), default=-1.0)
 
-    A problem without open parameters is evaluated once. `report` sees the trials batch by batch.
+    def advance(self, samples: int) -> None:
+        """Go on for at most so many samples, or until it is over.
+
+        A problem without open parameters is evaluated once.
+        """
+        end = len(self.trials) + (min(samples, 1) if self.space.dim == 0 else samples)
+        try:
+            while len(self.trials) < end and not self.over:
+                self._step(end - len(self.trials))
+        except SketchError as error:  # a solver may run the program too, to see which parameters matter
+            self.halted = error
+        except KeyboardInterrupt:  # wherever it strikes, what was sampled counts
+            self.broken_off = Interrupted("interrupted")
+
+    def _step(self, limit: int) -> None:
+        u = np.empty((1, 0)) if self.space.dim == 0 else self._solver.ask(limit)
+        self._exhausted = self.space.dim == 0 or not len(u)
+        begun = len(self.trials)
+        if len(u):
+            self._evaluate(u)
+        if batch := self.trials[begun:]:
+            self._report(batch)
+        if not self.over:
+            self._solver.tell(batch)
+
+    def _evaluate(self, u: FloatArray) -> None:
+        """Trials up to the first accepted one, and what stopped them if something did."""
+        try:
+            for trial in self._evaluator.stream(u):
+                self.trials.append(trial)
+                if trial.accepted:
+                    break
+        except SketchError as error:
+            self.halted = error
+        except Proc3sError as error:
+            self.broken_off = error
+        except KeyboardInterrupt:
+            self.broken_off = Interrupted("interrupted")
+
+
+def race(searches: Sequence[Search], budget: int) -> None:
+    """Divide `budget` samples among searches by successive halving, until one is solved.
+
+    Every heat gets an equal part of what is left, shared equally; then the better half goes on. Heats run
+    in order, so the outcome does not depend on clocks.
     """
-    trials: list[Trial] = []
-    limit = min(budget, 1) if space.dim == 0 else budget
-    try:
-        while len(trials) < limit:
-            u = np.empty((1, 0)) if space.dim == 0 else solver.ask(limit - len(trials))
-            if not len(u):
-                break
-            done = _evaluate(evaluator, u)
-            trials += done.trials
-            report(done.trials)
-            if done.halted or done.broken_off or done.solution:
-                return Search(tuple(trials), done.halted, done.broken_off)
-            solver.tell(done.trials)
-    except SketchError as error:  # a solver may run the program too, to see which parameters matter
-        return Search(tuple(trials), halted=error)
-    except KeyboardInterrupt:  # wherever it strikes, what was sampled counts
-        return Search(tuple(trials), broken_off=Interrupted("interrupted"))
-    return Search(tuple(trials))
-
-
-def _evaluate(evaluator: Evaluator, u: FloatArray) -> Search:
-    """Trials up to the first accepted one, and what stopped them if something did."""
-    batch: list[Trial] = []
-    try:
-        for trial in evaluator.stream(u):
-            batch.append(trial)
-            if trial.accepted:
-                break
-    except SketchError as error:
-        return Search(tuple(batch), halted=error)
-    except Proc3sError as error:
-        return Search(tuple(batch), broken_off=error)
-    except KeyboardInterrupt:
-        return Search(tuple(batch), broken_off=Interrupted("interrupted"))
-    return Search(tuple(batch))
+    running, left = [search for search in searches if not search.over], budget
+    for heats in range(math.ceil(math.log2(max(len(running), 1))) + 1, 0, -1):
+        for search in running:
+            begun = len(search.trials)
+            search.advance(min(max(left // (heats * len(running)), 1), budget))
+            budget -= len(search.trials) - begun
+            if search.solution or search.broken_off:
+                return
+        left = budget
+        alive = sorted((s for s in running if not s.over), key=lambda search: -search.progress)
+        running = alive[: math.ceil(len(alive) / 2)]

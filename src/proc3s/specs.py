@@ -326,7 +326,9 @@ class LLMSpec(Target):
     usage: str
     """How `--llm` names it."""
     options: ImportString | None = None
-    """pydantic model of its options (`-L key=value`)."""
+    """pydantic model of its own options (`-L key=value`), beside those that every backend takes."""
+    check: ImportString | None = None
+    """`check(model, options)` -> findings for `proc3s doctor`; model is None if another one is chosen."""
 
 
 class ExecutorSpec(Target):

@@ -5,7 +5,7 @@ import itertools
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,12 +46,23 @@ class Action:
         """The action as it stands in a summary; a pose becomes its six numbers."""
         return {"skill": self.skill, "args": [_plain(value) for value in self.args]}
 
+    @classmethod
+    def from_json(cls, action: Mapping[str, Any]) -> "Action":
+        """The action again: six numbers are a pose, other lists points."""
+        return cls(action["skill"], tuple(_value(arg) for arg in action["args"]))
+
 
 Plan: TypeAlias = tuple[Action, ...]
 
 
 def _plain(value: Value) -> Any:
     return list(dataclasses.astuple(value)) if isinstance(value, Pose) else value
+
+
+def _value(plain: Any) -> Value:
+    if not isinstance(plain, list):
+        return cast(Value, plain)
+    return Pose(*plain) if len(plain) == len(dataclasses.fields(Pose)) else tuple(plain)
 
 
 def _short(value: Value) -> str:

@@ -1,14 +1,16 @@
 """The summary of a run: one flat document for people and programs."""
 
-import dataclasses
 from collections import Counter
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, Literal
 
 from pydantic import BaseModel
 
+from proc3s.budget import Spent, total
 from proc3s.feedback import Diagnosis, Failure
 from proc3s.grounding import Setup
+from proc3s.llms import Completion
 from proc3s.options import RunOptions
 from proc3s.planner import Outcome
 
@@ -39,14 +41,24 @@ class Summary(BaseModel):
     plan: list[dict[str, Any]] | None = None
     violations: list[dict[str, Any]] = []
     program_errors: list[dict[str, Any]] = []
+    nearest: dict[str, Any] | None = None
+    """Of an unsolved run, the plan that came furthest, and what it violates."""
+    usage: Spent = Spent()
+    """What the answers cost, recorded ones when they were recorded; unknown sums are null."""
     run_dir: str | None = None
     error: str | None = None
 
 
-def summarize(options: RunOptions, setup: Setup, outcome: Outcome, run_dir: Path | None) -> Summary:
+def summarize(
+    options: RunOptions,
+    setup: Setup,
+    outcome: Outcome,
+    run_dir: Path | None,
+    answers: Iterable[Completion] = (),
+) -> Summary:
     """The summary of an outcome. With no plan executed, the violations are those of the last round."""
     execution = outcome.execution
-    last = outcome.attempts[-1].diagnosis if outcome.attempts else Diagnosis(samples=0)
+    last = _last(outcome)
     wall, cpu = outcome.clock.totals()
     sources = {proposal.source for proposal in outcome.proposals}
     return Summary(
@@ -61,18 +73,37 @@ def summarize(options: RunOptions, setup: Setup, outcome: Outcome, run_dir: Path
         executed=execution.executed if execution else "none",
         goal_reached=execution.score.reached if execution and execution.score else None,
         goal_reason=execution.reason if execution else None,
-        rounds=outcome.rounds,
+        rounds=outcome.feedback,
         samples=sum(attempt.samples for attempt in outcome.attempts),
         evaluations=sum(attempt.evaluations for attempt in outcome.attempts),
         rejected_by=_rejected_by(outcome),
         seconds=_seconds(outcome.clock.wall, wall),
         cpu_seconds=_seconds(outcome.clock.cpu, cpu),
         plan=[action.to_json() for action in execution.plan] if execution else None,
+        nearest=None if execution and execution.executed == "solution" else _nearest(outcome),
+        usage=total(answers),
         violations=_violations(outcome, last),
         program_errors=[_program_error(f) for f in (*last.program_errors, *last.failures) if f.step is None],
         run_dir=str(run_dir) if run_dir else None,
         error=str(outcome.error) if outcome.error else None,
     )
+
+
+def _last(outcome: Outcome) -> Diagnosis:
+    """The diagnosis of the last round's best program."""
+    if not outcome.rounds:
+        return Diagnosis(samples=0)
+    latest = outcome.rounds[-1]
+    return latest.attempts[latest.best].diagnosis
+
+
+def _nearest(outcome: Outcome) -> dict[str, Any] | None:
+    """The plan of the attempt that got furthest."""
+    tried = [attempt for attempt in outcome.attempts if attempt.nearest]
+    best = max(tried, key=lambda attempt: attempt.diagnosis.progress, default=None)
+    if best is None or best.nearest is None:
+        return None
+    return {"round": best.round, "candidate": best.candidate, **best.nearest}
 
 
 def _rejected_by(outcome: Outcome) -> dict[str, int]:
@@ -88,7 +119,7 @@ def _seconds(stages: dict[str, float], total: float) -> dict[str, float]:
 
 def _violations(outcome: Outcome, last: Diagnosis) -> list[dict[str, Any]]:
     if outcome.execution:
-        return [{**dataclasses.asdict(v), "share": 100} for v in outcome.execution.violations]
+        return [{**v.to_json(), "share": 100} for v in outcome.execution.violations]
     return [
         {"constraint": f.kind, "step": f.step, "skill": f.skill, "text": f.text, "share": f.share}
         for f in last.failures

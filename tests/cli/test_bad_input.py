@@ -28,7 +28,7 @@ def said(result):
             ["run", "drawing/star", "--solver", "rejection", "-S", "first=many"],
             ["rejection", "first", "integer", "many"],
         ),
-        (["run", "drawing/star", "-L", "wait=1"], ["replay", "'wait'", "no options"]),
+        (["run", "drawing/star", "-L", "wait=1"], ["replay", "no option 'wait'"]),
         (
             ["run", "drawing/star", "--llm", "manual:d", "-L", "wiat=0"],
             ["manual", "'wiat'", "did you mean 'wait'?"],

@@ -19,11 +19,14 @@ def test_pending_then_answered(cli, here, answers):
     assert (done.code, done.json["llm_source"], done.json["goal_reached"]) == (0, "manual", True)
 
 
-def test_the_same_command_again_with_a_folder_of_ones_own(cli, here, answers):
+def test_a_pending_run_goes_on_when_the_answer_is_there(cli, here, answers):
     args = ("run", "drawing/star", "--llm", "manual:desk", "-L", "wait=0", "--out", "mine")
-    assert cli(*args).code == 4
+    pending = cli(*args)
+    assert pending.code == 4
+    assert "proc3s run --resume mine" in pending.stderr
+    assert cli("run", "--resume", "mine").code == 4
     (here / "desk/drawing.star.proc3s.seed0.answer.md").write_text(answers.star)
-    result = cli(*args)
+    result = cli("run", "--resume", "mine")
     assert result.code == 0, result.stderr
 
 

@@ -128,7 +128,7 @@ def test_control_c_while_sampling(background, eventually, here, stub, events):
         eventually(lambda: batches(here, "mine") >= 3)
         process.send_signal(signal.SIGINT)
         stdout, stderr = process.communicate(timeout=20)
-    assert process.returncode == 130
+    assert process.returncode == 130, stderr
     assert "Traceback" not in stderr
     assert "interrupted" in stderr
     summary = json.loads(stdout)

@@ -23,6 +23,8 @@ KEYS = [
     "plan",
     "violations",
     "program_errors",
+    "nearest",
+    "usage",
     "run_dir",
     "error",
 ]
@@ -139,8 +141,10 @@ def test_a_feedback_round_with_bundled_answers(cli, here, events):
     kinds = [e["event"] for e in events(here / result.json["run_dir"]) if e["event"] != "batch_evaluated"]
     assert kinds == [
         "run_started",
-        *("prompt_rendered", "answer_received", "program_extracted", "sketch_loaded", "round_ended"),
         *("prompt_rendered", "answer_received", "program_extracted", "sketch_loaded"),
+        *("attempt_ended", "round_ended"),
+        *("prompt_rendered", "answer_received", "program_extracted", "sketch_loaded"),
+        "attempt_ended",
         "plan_executed",
         "run_ended",
     ]

@@ -117,5 +117,5 @@ def test_an_infinite_violation_is_still_valid_json(tmp_path):
 
     trial = trial_of(with_constraint(tmp_path, target="toy_world:infinite"), SLIDE)
     assert not trial.accepted
-    event = BatchEvaluated.from_trials(0, [trial]).model_dump(mode="json")
+    event = BatchEvaluated.from_trials(0, 0, [trial]).model_dump(mode="json")
     json.dumps(event, allow_nan=False)

@@ -6,7 +6,7 @@ from proc3s import Action, Space, rollout
 from proc3s.evaluation import Evaluator
 from proc3s.samplers import ContinuousSampler
 from proc3s.sketch import SketchRuntimeError, SketchTimeout
-from proc3s.solving import solve
+from proc3s.solving import Search
 
 
 class Counting:
@@ -132,7 +132,8 @@ def test_a_halted_program_leaves_its_finished_samples(evaluate):
 
 def test_a_solution_before_the_halt_counts(evaluate):
     evaluator, _ = evaluate([20.0, 1.0])
-    found = solve(Space({"p": ContinuousSampler(0, 1)}), Uniform(8), evaluator, 8, lambda trials: None)
+    found = Search(Space({"p": ContinuousSampler(0, 1)}), Uniform(8), evaluator)
+    found.advance(8)
     assert found.halted is None
     assert found.solution.index == 1
 
@@ -140,7 +141,8 @@ def test_a_solution_before_the_halt_counts(evaluate):
 def test_a_halt_ends_the_search_with_what_was_done(evaluate):
     evaluator, _ = evaluate([20.0] * 10)
     reported = []
-    found = solve(Space({"p": ContinuousSampler(0, 1)}), Uniform(8), evaluator, 100, reported.append)
+    found = Search(Space({"p": ContinuousSampler(0, 1)}), Uniform(8), evaluator, reported.append)
+    found.advance(100)
     assert found.solution is None
     assert found.halted.line == 3
     assert [len(batch) for batch in reported] == [8, 2]
@@ -150,20 +152,23 @@ def test_a_halt_ends_the_search_with_what_was_done(evaluate):
 def test_the_budget_is_never_passed(evaluate):
     evaluator, _ = evaluate([20.0] * 30)
     solver = Uniform(8)
-    found = solve(Space({"p": ContinuousSampler(0, 1)}), solver, evaluator, 20, lambda trials: None)
+    found = Search(Space({"p": ContinuousSampler(0, 1)}), solver, evaluator)
+    found.advance(20)
     assert solver.told == [8, 8, 4]
     assert len(found.trials) == evaluator.samples == 20
 
 
 def test_a_solver_that_gives_up_ends_the_search(evaluate):
     evaluator, _ = evaluate([20.0] * 30)
-    found = solve(Space({"p": ContinuousSampler(0, 1)}), Uniform(0), evaluator, 20, lambda trials: None)
-    assert found.trials == ()
+    found = Search(Space({"p": ContinuousSampler(0, 1)}), Uniform(0), evaluator)
+    found.advance(20)
+    assert found.trials == []
 
 
 def test_a_problem_without_parameters_is_evaluated_once(evaluate):
     evaluator, _ = evaluate([20.0] * 3, dim=0)
-    found = solve(Space({}), Uniform(8), evaluator, 100, lambda trials: None)
+    found = Search(Space({}), Uniform(8), evaluator)
+    found.advance(100)
     assert len(found.trials) == 1
 
 

@@ -2,7 +2,7 @@ import json
 
 import pytest
 
-from proc3s import Completion, Message, UsageError
+from proc3s import Message, UsageError, answer
 from proc3s.events import AnswerReceived, ProgramExtracted, PromptRendered, RunEnded, RunStarted
 from proc3s.runs import RunFolder, events_of, new_folder, read_events, started, versions
 
@@ -10,7 +10,7 @@ START = RunStarted(options={"task": "toy/shift"}, versions={}, samples=5, scene=
 
 
 def received(text, round_=0):
-    return AnswerReceived(round=round_, completion=Completion(text=text, source="live", model="m"))
+    return AnswerReceived(round=round_, completion=answer(text, model="m"))
 
 
 @pytest.fixture
@@ -26,7 +26,7 @@ def test_events_come_back_as_they_went_in(folder):
     folder.emit(RunEnded(summary={"solved": True}))
     assert [e["event"] for e in read_events(folder.path)] == ["run_started", "answer_received", "run_ended"]
     assert started(folder.path)["options"] == {"task": "toy/shift"}
-    assert events_of(folder.path, "answer_received")[0]["completion"]["text"] == "hello"
+    assert events_of(folder.path, "answer_received")[0]["completion"]["candidates"][0]["text"] == "hello"
     assert all(e["time"].endswith("+00:00") for e in read_events(folder.path))
 
 
@@ -69,7 +69,7 @@ def test_any_text_of_an_answer_survives_the_log(folder, text):
     folder.emit(START)
     folder.emit(received(text))
     folder.emit(RunEnded(summary={}))
-    assert events_of(folder.path, "answer_received")[0]["completion"]["text"] == text
+    assert events_of(folder.path, "answer_received")[0]["completion"]["candidates"][0]["text"] == text
     assert len(read_events(folder.path)) == 3
 
 

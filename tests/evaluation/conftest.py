@@ -13,7 +13,7 @@ from proc3s.plugins import import_loose_file
 from proc3s.problem import Problem
 from proc3s.registry import open_registry
 from proc3s.samplers import ContinuousSampler, Space
-from proc3s.solving import Search, solve
+from proc3s.solving import Search
 from proc3s.specs import ScreenSpec, Target
 from proc3s.state import PlanBatch
 from proc3s_executors.processes import Processes
@@ -110,12 +110,11 @@ def _search(problem, executor, make_solver, budget, seed, audit, decimals, exhau
     audited = Audit(audit, seed) if audit else None
     evaluator = Evaluator(problem, sketch, executor, audit=audited)
     rng = np.random.default_rng(seed)
+    found = Search(sketch.space, make_solver(sketch.space, budget, rng), evaluator)
     if exhaust:
-        found = Search(tuple(evaluator.stream(rng.random((budget, HOPS)))))
+        found.trials += evaluator.stream(rng.random((budget, HOPS)))
     else:
-        found = solve(
-            sketch.space, make_solver(sketch.space, budget, rng), evaluator, budget, lambda trials: None
-        )
+        found.advance(budget)
     assert found.halted is None
     if found.broken_off:
         raise found.broken_off
@@ -124,7 +123,7 @@ def _search(problem, executor, make_solver, budget, seed, audit, decimals, exhau
         evaluator.samples,
         evaluator.evaluations,
         dict(evaluator.rejected_by),
-        found.trials,
+        tuple(found.trials),
         audited and audited.check(problem, executor),
     )
 

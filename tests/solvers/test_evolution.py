@@ -8,7 +8,7 @@ import pytest
 
 from proc3s import Trial, Violation
 from proc3s.testing.solvers import chain, samples, search, solution, toy
-from proc3s_solvers.batches import furthest, progress
+from proc3s_solvers.batches import furthest
 
 
 def failed(reached, *margins):
@@ -31,7 +31,7 @@ def test_the_step_counts_first_then_the_worst_violation():
         failed(1, -2.0),
         failed(3, -7.0),
     ]
-    scores = [progress(trial) for trial in ordered]
+    scores = [trial.progress for trial in ordered]
     assert scores == sorted(scores)
     assert len(set(scores)) >= len(scores) - 1
     assert furthest(ordered) is ordered[-1]

@@ -7,7 +7,7 @@ from typing import Any
 
 import typer
 
-from proc3s.cli import bench, catalogue, plugins, render_prompt, replay, run, schema
+from proc3s.cli import bench, catalogue, doctor, plugins, render_prompt, replay, run, schema
 from proc3s.errors import Proc3sError
 
 app = typer.Typer(
@@ -46,6 +46,7 @@ _COMMANDS: dict[str, Callable[..., Any]] = {
     "show": catalogue.show,
     "plugins": plugins.plugins,
     "schema": schema.schema,
+    "doctor": doctor.doctor,
 }
 for _name, _command in _COMMANDS.items():
     app.command(name=_name)(_guarded(_command))

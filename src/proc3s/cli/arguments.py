@@ -8,7 +8,33 @@ import typer
 Task: TypeAlias = Annotated[str, typer.Argument(metavar="TASK", help="domain/task, e.g. drawing/star")]
 Llm: TypeAlias = Annotated[
     str | None,
-    typer.Option("--llm", help="PROVIDER/MODEL, replay[:PATH], manual:DIR or stub:FILE  [default: replay]"),
+    typer.Option(
+        "--llm",
+        help="PROVIDER/MODEL, replay[:PATH], manual:DIR or stub:FILE  "
+        "[default: PROC3S_LLM, proc3s.toml, replay]",
+    ),
+]
+Candidates: TypeAlias = Annotated[
+    int | None, typer.Option("--candidates", min=1, help="programs asked for at once; they race")
+]
+LlmJobs: TypeAlias = Annotated[
+    int | None, typer.Option("--llm-jobs", min=1, help="calls to the LLM in flight")
+]
+Record: TypeAlias = Annotated[
+    Path | None, typer.Option("--record", help="cassette (.jsonl or folder) that keeps every answer")
+]
+MaxCost: TypeAlias = Annotated[
+    float | None, typer.Option("--max-cost", help="US dollars that live answers may cost")
+]
+MaxTokens: TypeAlias = Annotated[
+    int | None, typer.Option("--max-tokens", min=1, help="tokens that live prompts and answers may take")
+]
+MaxCalls: TypeAlias = Annotated[
+    int | None, typer.Option("--max-calls", min=1, help="live calls that may be made")
+]
+Resume: TypeAlias = Annotated[
+    Path | None,
+    typer.Option("--resume", metavar="RUN", help="go on with a run that was broken off"),
 ]
 Method: TypeAlias = Annotated[str | None, typer.Option("--method", help="see `proc3s list methods`")]
 Solver: TypeAlias = Annotated[str | None, typer.Option("--solver", help="see `proc3s list solvers`")]

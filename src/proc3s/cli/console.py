@@ -8,17 +8,20 @@ from rich.console import Console as RichConsole
 from rich.markup import escape
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
+from proc3s.budget import Spent
 from proc3s.events import (
     AnswerReceived,
     Audited,
     BatchEvaluated,
+    CallFailed,
     Event,
     PromptRendered,
     RoundEnded,
-    RunStarted,
     SketchLoaded,
+    Warned,
 )
 from proc3s.feedback import Diagnosis, Failure
+from proc3s.llms import Completion
 from proc3s.options import RunOptions
 from proc3s.summary import Summary
 
@@ -28,13 +31,23 @@ _ORIGIN = {
     "manual": "an answer given by hand",
     "live": "an answer",
 }
+_LOST = {
+    "seed": ": this run cannot be reproduced",
+    "temperature": ": answers may vary",
+    "n": ": candidates are asked for one by one",
+}
+"""What goes with a parameter that the provider does not take."""
 
 
 class Console:
-    """Progress is shown only on a terminal; `quiet` prints nothing but errors."""
+    """Progress is shown only on a terminal; `quiet` prints nothing but errors.
 
-    def __init__(self, options: RunOptions, quiet: bool) -> None:
+    `samples` is how many a round may take.
+    """
+
+    def __init__(self, options: RunOptions, samples: int, quiet: bool) -> None:
         self._options = options
+        self._samples = samples
         self._quiet = quiet
         self._err = RichConsole(stderr=True, quiet=quiet, highlight=False, soft_wrap=True)
         self._progress = Progress(
@@ -52,7 +65,6 @@ class Console:
         self._task = self._progress.add_task(
             "sampling", start=False, visible=False, rate="", reached=0, why=""
         )
-        self._budget: int | None = None
         self._why: Counter[str] = Counter()
 
     def __enter__(self) -> "Console":
@@ -66,15 +78,15 @@ class Console:
 
     def update(self, event: Event) -> None:
         """Show what an event says."""
-        if isinstance(event, RunStarted):
-            self._budget = event.samples
-        elif isinstance(event, PromptRendered):
+        if isinstance(event, PromptRendered):
             size = sum(len(message.text) for message in event.messages)
             self._say(f"round {event.round}: asking {self._options.llm} ({size} characters)")
+        elif isinstance(event, CallFailed):
+            self._say(f"round {event.round}: {event.message}; trying again in {event.wait:.1f} s")
+        elif isinstance(event, Warned):
+            self._say(f"round {event.round}: {event.text}")
         elif isinstance(event, AnswerReceived):
-            source, model = event.completion.source, event.completion.model
-            whose = "" if source == "authored" else f" from {model}"
-            self._say(f"round {event.round}: {_ORIGIN.get(source, 'an answer')}{whose}")
+            self._answered(event.round, event.completion)
         elif isinstance(event, SketchLoaded):
             self._loaded(event)
         elif isinstance(event, BatchEvaluated):
@@ -83,6 +95,16 @@ class Console:
             self._say(f"round {event.round}: audit: {len(event.wrong)} of {event.checked} rejects were wrong")
         elif isinstance(event, RoundEnded):
             self._diagnosis(event.round, event.diagnosis)
+
+    def _answered(self, round_: int, completion: Completion) -> None:
+        source, count = completion.source, len(completion.candidates)
+        whose = "" if source == "authored" else f" from {completion.model}"
+        many = f", {count} candidates" if count > 1 else ""
+        self._say(f"round {round_}: {_ORIGIN.get(source, 'an answer')}{whose}{many}{_cost(completion)}")
+        for name in completion.dropped:
+            self._say(f"round {round_}: {completion.model} does not support {name}{_LOST.get(name, '')}")
+        for note in completion.notes:
+            self._say(f"round {round_}: {note}")
 
     def _say(self, text: str) -> None:
         self._err.print(escape(text))
@@ -95,7 +117,7 @@ class Console:
         )
         self._why.clear()
         self._progress.reset(
-            self._task, total=self._budget, visible=True, rate="", reached=0, why="", start=True
+            self._task, total=self._samples, visible=True, rate="", reached=0, why="", start=True
         )
 
     def _sampled(self, event: BatchEvaluated) -> None:
@@ -126,6 +148,8 @@ class Console:
         out.print(f"samples  {summary.samples} in {_count(summary.rounds + 1, 'round')}, {_times(summary)}")
         for screen, rejected in summary.rejected_by.items():
             out.print(f"screen   {screen} rejected {rejected}")
+        if summary.usage.calls:
+            out.print(f"answers  {_spent(summary.usage)}")
         if summary.llm_source == "authored":
             out.print("answer   authored (written by hand, not by a model)")
         for step, action in enumerate(summary.plan or []):
@@ -134,6 +158,27 @@ class Console:
         for violation in summary.violations[:5]:
             out.print(escape(f"  violated at step {violation['step']}: {violation['text']}"))
         out.print(escape(f"folder   {summary.run_dir}"))
+
+
+def _spent(spent: Spent) -> str:
+    tokens = "unknown" if spent.prompt_tokens is None or spent.completion_tokens is None else None
+    tokens = tokens or f"{spent.prompt_tokens:,} + {spent.completion_tokens:,}"
+    cost = "unknown" if spent.cost is None else f"${spent.cost:.4f}"
+    return f"{_count(spent.calls, 'call')}, tokens {tokens}, cost {cost}"
+
+
+def _cost(completion: Completion) -> str:
+    """What an answer cost, as far as it is known."""
+    usage = completion.usage
+    known = (
+        f"{usage.prompt_tokens:,} + {usage.completion_tokens:,} tokens"
+        if usage.prompt_tokens is not None and usage.completion_tokens is not None
+        else "",
+        f"${completion.cost:.4f}" if completion.cost is not None else "",
+        f"{completion.latency:.1f} s" if completion.latency is not None else "",
+    )
+    text = ", ".join(part for part in known if part)
+    return f" ({text})" if text else ""
 
 
 def _count(number: int, what: str) -> str:

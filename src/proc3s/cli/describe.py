@@ -1,6 +1,5 @@
 """The text behind `proc3s list` and `proc3s show`."""
 
-import importlib
 import json
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -11,8 +10,10 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
+from proc3s.asking import CallOptions
 from proc3s.domain import Domain
 from proc3s.errors import UsageError, did_you_mean
+from proc3s.options import options_model
 from proc3s.registry import KINDS, Registry, open_registry
 from proc3s.specs import DomainSpec, LLMSpec, ParamSpec, SolverSpec, Spec, TaskSpec
 
@@ -90,10 +91,10 @@ def _describe(registry: Registry, spec: Spec) -> Iterator[str]:
         return
     for field in type(spec).model_fields:
         value = getattr(spec, field)
-        if field not in ("name", "args", "options") and value not in ((), {}, None, ""):
+        if field not in ("name", "args", "options", "check") and value not in ((), {}, None, ""):
             yield f"  {field:10} {escape(_text(value))}"
-    if isinstance(spec, SolverSpec | LLMSpec) and spec.options:
-        yield from _describe_options(spec.options, "-S" if isinstance(spec, SolverSpec) else "-L")
+    if isinstance(spec, SolverSpec | LLMSpec):
+        yield from _describe_options(spec)
 
 
 def _text(value: Any) -> str:
@@ -106,12 +107,14 @@ def _text(value: Any) -> str:
     return str(value)
 
 
-def _describe_options(target: str, flag: str) -> Iterator[str]:
-    module, _, name = target.partition(":")
-    yield "  options"
-    for field, info in getattr(importlib.import_module(module), name).model_fields.items():
-        default = "required" if info.is_required() else f"default {info.default}"
-        yield escape(f"    {flag} {field}=…  {info.description or ''} ({default})")
+def _describe_options(spec: SolverSpec | LLMSpec) -> Iterator[str]:
+    """Own options first, then those that every LLM takes."""
+    flag = "-S" if isinstance(spec, SolverSpec) else "-L"
+    models = [options_model(spec), CallOptions if isinstance(spec, LLMSpec) else None]
+    for model in models:
+        for field, info in model.model_fields.items() if model else ():
+            default = "required" if info.is_required() else f"default {info.default}"
+            yield escape(f"    {flag} {field}=…  {info.description or ''} ({default})")
 
 
 def _describe_domain(domain: Domain) -> Iterator[str]:

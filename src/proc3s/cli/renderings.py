@@ -9,13 +9,14 @@ from typing import Any
 import typer
 
 from proc3s.cli.session import run_options
-from proc3s.conversation import Exchange, conversation
+from proc3s.conversation import Exchange, conversation, proposals_of
 from proc3s.errors import UsageError
 from proc3s.feedback import Diagnosis
 from proc3s.llms import Message, digest, estimate_tokens
 from proc3s.options import RunOptions, make_problem, make_prompter
+from proc3s.past import answers_of
 from proc3s.registry import Registry
-from proc3s.runs import LOG, events_of, markdown, started
+from proc3s.runs import LOG, events_of, markdown, read_events, started
 
 
 def render(registry: Registry, options: RunOptions, round_: int, run: Path | None) -> tuple[Message, ...]:
@@ -40,14 +41,18 @@ def options_of(task: str, given: dict[str, Any], run: Path | None) -> RunOptions
 
 
 def _history(run: Path, rounds: int) -> list[Exchange]:
-    answers = {e["round"]: e["completion"]["text"] for e in events_of(run, "answer_received")}
-    ended = {e["round"]: e["diagnosis"] for e in events_of(run, "round_ended")}
-    for n in range(rounds):
-        if n not in answers or n not in ended:
-            raise UsageError(
-                f"{run} has {min(len(answers), len(ended))} failed round(s), so no prompt of round {rounds}"
-            )
-    return [Exchange(answers[n], Diagnosis.model_validate(ended[n])) for n in range(rounds)]
+    texts = {
+        (p.round, p.candidate): p.answer
+        for a in answers_of(read_events(run))
+        for p in proposals_of(a.completion, a.round, a.candidate)
+    }
+    ended = [e for e in events_of(run, "round_ended") if (e["round"], e["candidate"]) in texts]
+    if len(ended) < rounds:
+        raise UsageError(f"{run} has {len(ended)} failed round(s), so no prompt of round {rounds}")
+    return [
+        Exchange(texts[e["round"], e["candidate"]], Diagnosis.model_validate(e["diagnosis"]))
+        for e in ended[:rounds]
+    ]
 
 
 def show(messages: tuple[Message, ...], format_: str, diff: Path | None, round_: int) -> None:

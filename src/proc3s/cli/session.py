@@ -1,45 +1,68 @@
 """One run from the command line: options to parts, parts to a run folder, a console and a summary."""
 
+import threading
 from collections.abc import Callable
-from dataclasses import dataclass, replace
-from functools import partial
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 import typer
 
+from proc3s.backends import find_llm, patient
 from proc3s.cli.console import Console
-from proc3s.conversation import ask_llm, given_program
-from proc3s.errors import Proc3sError, UsageError
-from proc3s.events import Emit, Event, RunEnded, RunStarted
-from proc3s.llms import Source
+from proc3s.config import choose_llm
+from proc3s.conversation import Propose, Question, ask_llm, given_program
+from proc3s.errors import LLMError, Proc3sError, UsageError
+from proc3s.events import AnswerReceived, CallFailed, Event, RunEnded, RunResumed, RunStarted
+from proc3s.llms import Request, Source
 from proc3s.options import (
     RunOptions,
     key_values,
-    make_llm,
     make_problem,
     make_prompter,
     make_setup,
 )
+from proc3s.past import Past, Remembering, past_of
 from proc3s.planner import Outcome, plan
-from proc3s.registry import Registry, open_registry
+from proc3s.recordings import Recorder
+from proc3s.registry import open_registry
 from proc3s.runs import RunFolder, events_of, new_folder, started, versions
 from proc3s.specfile import validate
 from proc3s.summary import Summary, summarize
 
+_OPTION_LISTS = ("domain_options", "method_options", "solver_options", "llm_options", "limits")
+_LIMITS = ("max_cost", "max_tokens", "max_calls")
+
 
 def run_options(**given: Any) -> RunOptions:
     """Options of a run from the arguments of a command; None leaves the default."""
+    return validate(RunOptions, _plain(given), "options")
+
+
+def _plain(given: dict[str, Any]) -> dict[str, Any]:
+    """Arguments of a command as fields of RunOptions, those that were given alone."""
     values = {name: value for name, value in given.items() if value is not None}
-    for name in ("domain_options", "method_options", "solver_options", "llm_options", "limits"):
-        values[name] = key_values(values.get(name, []))
+    for name in _OPTION_LISTS:
+        if name in values:
+            values[name] = key_values(values[name])
+    if budget := {name: values.pop(name) for name in _LIMITS if name in values}:
+        values["budget"] = budget
     if "plugins" in values:
         values["plugins"] = [path.resolve() for path in values["plugins"]]
-    if "template_dir" in values:
-        values["template_dir"] = values["template_dir"].resolve()
+    for name in ("template_dir", "record"):
+        if name in values:
+            values[name] = values[name].resolve()
     if values.get("jobs", 1) > 1:
         values.setdefault("executor", "processes")
-    return validate(RunOptions, values, "options")
+    return values
+
+
+def with_llm(options: RunOptions) -> RunOptions:
+    """The options with the LLM that is asked, whoever chose it; says so if it was not the command line."""
+    chosen = choose_llm(options.llm, options.llm_options)
+    if chosen.by not in ("--llm", "default"):
+        typer.echo(f"proc3s: asking {chosen.name}, as {chosen.by} says", err=True)
+    return options.model_copy(update={"llm": chosen.name, "llm_options": dict(chosen.options)})
 
 
 def read_program(path: Path) -> str:
@@ -52,25 +75,32 @@ def read_program(path: Path) -> str:
 
 @dataclass(frozen=True)
 class Given:
-    """A program that is there already, where it is from, and the round whose random draws it takes."""
+    """A program that is there already, where it is from, and whose random draws it takes."""
 
     program: str
     origin: Source = "none"
     round: int = 0
+    candidate: int = 0
 
 
-def run_task(
-    options: Callable[[], RunOptions],
-    out: Path | None,
-    as_json: bool,
-    given: Callable[[], Given] | None = None,
-) -> None:
+@dataclass(frozen=True)
+class Job:
+    """A run that was asked for; one that goes on has a past, and may have changed options."""
+
+    options: RunOptions
+    out: Path | None = None
+    given: Given | None = None
+    past: Past | None = None
+    changes: dict[str, Any] = field(default_factory=dict)
+
+
+def run_task(job: Callable[[], Job], as_json: bool) -> None:
     """Run and print the summary; ends the process with its exit code.
 
     With `as_json` even a wrong option gives the whole document, with the mistake under `error`.
     """
     try:
-        summary, code = _run(options(), out, as_json, given() if given else None)
+        summary, code = Session(job(), as_json).run()
     except Proc3sError as error:
         if as_json:
             typer.echo(Summary(error=str(error)).model_dump_json(indent=2))
@@ -83,77 +113,142 @@ def run_task(
 def replay_run(run: Path, changes: dict[str, Any], out: Path | None, as_json: bool) -> None:
     """Search the last program of a run again, with the random draws of its round."""
 
-    def options() -> RunOptions:
-        changed = {name: value for name, value in changes.items() if value is not None}
-        if "solver_options" in changed:
-            changed["solver_options"] = key_values(changed["solver_options"])
-        return validate(RunOptions, {**started(run)["options"], **changed}, str(run))
+    def job() -> Job:
+        options = {**started(run)["options"], **_plain(changes)}
+        return Job(validate(RunOptions, options, str(run)), out, _program_of(run))
 
-    def given() -> Given:
-        programs = events_of(run, "program_extracted")
-        if not programs:
-            raise UsageError(f"{run} has no program to replay")
-        sources = {e["round"]: e["completion"]["source"] for e in events_of(run, "answer_received")}
-        executed = [event["round"] for event in events_of(run, "plan_executed")]
-        last = next((p for p in programs if p["round"] in executed), programs[-1])
-        origin = sources.get(last["round"], "none")
-        return Given(last["source"], "recorded" if origin == "live" else origin, last["round"])
-
-    run_task(options, out, as_json, given)
+    run_task(job, as_json)
 
 
-def _run(options: RunOptions, out: Path | None, as_json: bool, given: Given | None) -> tuple[Summary, int]:
-    if given is not None:
-        options = options.model_copy(update={"feedback": 0})
-    if options.unsafe_exec:
-        typer.echo("proc3s: WARNING: with --unsafe-exec the LLM's programs can read your files", err=True)
-    registry = open_registry(options.plugins)
-    problem = make_problem(registry, options, goal_needed=given is None)
-    setup = make_setup(registry, options, problem)
-    if given is None:
-        llm, prompter = make_llm(registry, options), make_prompter(registry, options, problem)
-        prompter.rehearse(problem)
-        ask = partial(ask_llm, llm, prompter, problem)
-    path = out or new_folder(Path("runs"), options.task, options.method, options.seed)
-    setup = replace(setup, picture=path / "plan.png")
-    folder = RunFolder(path)
-    console = Console(options, quiet=as_json)
-    emit = _broadcast(registry, folder, console)
-    try:
-        emit(
-            RunStarted(
-                options=options.model_dump(mode="json"),
-                versions=versions(),
-                samples=problem.samples,
-                scene=problem.scene,
+def _program_of(run: Path) -> Given:
+    programs = events_of(run, "program_extracted")
+    if not programs:
+        raise UsageError(f"{run} has no program to replay")
+    sources = {e["round"]: e["completion"]["source"] for e in events_of(run, "answer_received")}
+    executed = [(event["round"], event["candidate"]) for event in events_of(run, "plan_executed")]
+    last = next((p for p in programs if (p["round"], p["candidate"]) in executed), programs[-1])
+    origin = sources.get(last["round"], "none")
+    return Given(last["source"], "recorded" if origin == "live" else origin, last["round"], last["candidate"])
+
+
+def resume_run(run: Path, task: str | None, given: dict[str, Any], as_json: bool) -> None:
+    """Go on with a run that was broken off, from its last completed step."""
+
+    def job() -> Job:
+        logged = RunOptions.model_validate(started(run)["options"])
+        if task not in (None, logged.task):
+            raise UsageError(f"{run} is a run of {logged.task}, not of {task}")
+        if logged.llm is None:
+            raise UsageError(f"{run} asked no LLM, so there is nothing to go on with; repeat its command")
+        changes = _plain(given)
+        if fixed := sorted(
+            set(changes) - {"llm", "llm_options", "llm_jobs", "jobs", "executor", "record", "budget"}
+        ):
+            raise UsageError(
+                f"a run that goes on keeps its {fixed[0].replace('_', ' ')}; leave that option out"
             )
+        if "llm" not in changes and "llm_options" in changes:
+            changes["llm_options"] = {**logged.llm_options, **changes["llm_options"]}
+        options = validate(RunOptions, {**logged.model_dump(), **changes}, "options")
+        options = with_llm(options) if "llm" in changes else options
+        return Job(options, run, past=past_of(run), changes=changes)
+
+    run_task(job, as_json)
+
+
+class Session:
+    """One run: its parts, its folder, its console, and who hears of its events."""
+
+    def __init__(self, job: Job, quiet: bool) -> None:
+        self._job = job
+        self._options = job.options
+        if job.given is not None:
+            self._options = job.options.model_copy(update={"feedback": 0})
+        if self._options.unsafe_exec:
+            typer.echo("proc3s: WARNING: with --unsafe-exec the LLM's programs can read your files", err=True)
+        self._registry = open_registry(self._options.plugins)
+        self._problem = make_problem(self._registry, self._options, goal_needed=job.given is None)
+        self._setup = make_setup(self._registry, self._options, self._problem)
+        self._past = job.past or Past()
+        self._answers = {(a.round, a.candidate, a.completion): None for a in self._past.answers}
+        self._emitting = threading.Lock()
+        self._ask = self._asker() if job.given is None else None
+        self._console = Console(self._options, self._problem.samples, quiet)
+
+    def run(self) -> tuple[Summary, int]:
+        """Run to the end, and the exit code."""
+        options, job = self._options, self._job
+        path = job.out or new_folder(Path("runs"), options.task, options.method, options.seed)
+        setup = replace(self._setup, picture=path / "plan.png")
+        self._folder = RunFolder(path, resume=job.past is not None)
+        try:
+            self._emit(self._begun())
+            with self._console:
+                outcome = plan(setup, self._propose(), self._emit, self._past.rounds, self._past.clock())
+            answers = [completion for _, _, completion in self._answers]
+            summary = summarize(options, setup, outcome, path, answers)
+            self._emit(RunEnded(summary=summary.model_dump(mode="json")))
+        finally:
+            self._folder.close()
+            setup.executor.close()
+        self._console.result(summary)
+        for status in self._registry.plugins.failures:
+            typer.echo(f"proc3s: plugin {status.name} ({status.source}) failed: {status.error}", err=True)
+        return summary, _exit_code(outcome, summary, resumable=job.given is None)
+
+    def _begun(self) -> Event:
+        if self._job.past is not None:
+            return RunResumed(options=self._job.changes, versions=versions())
+        return RunStarted(
+            id=self._past.id,
+            options=self._options.model_dump(mode="json"),
+            versions=versions(),
+            samples=self._problem.samples,
+            scene=self._problem.scene,
         )
-        with console:
-            propose = given_program(given.program, given.origin, given.round) if given else ask(emit)
-            outcome = plan(setup, propose, emit)
-        summary = summarize(options, setup, outcome, path)
-        emit(RunEnded(summary=summary.model_dump(mode="json")))
-    finally:
-        folder.close()
-        setup.executor.close()
-    console.result(summary)
-    for status in registry.plugins.failures:
-        typer.echo(f"proc3s: plugin {status.name} ({status.source}) failed: {status.error}", err=True)
-    return summary, exit_code(outcome, summary)
+
+    def _asker(self) -> Callable[[], Propose]:
+        """Who is asked; made before the run begins, so that a missing key or a stale template stops it."""
+        options = self._options
+        chosen = find_llm(self._registry, options.llm or "", options.llm_options)
+        question = Question(
+            self._problem,
+            make_prompter(self._registry, options, self._problem),
+            chosen.call.sampling(options.seed, options.candidates),
+            options.llm_jobs,
+        )
+        question.prompter.rehearse(self._problem)
+        spent = [answer.completion for answer in self._past.answers if answer.completion.source == "live"]
+        llm = patient(chosen, chosen.make(), options.budget, spent, self._call_failed)
+        if options.record is not None:
+            llm = Recorder(llm, options.record, self._past.id)
+        return lambda: ask_llm(Remembering(llm, self._past.answers), question, self._emit)
+
+    def _propose(self) -> Propose:
+        given = self._job.given
+        if self._ask is not None:
+            return self._ask()
+        assert given is not None
+        return given_program(given.program, given.origin, given.round, given.candidate)
+
+    def _call_failed(self, request: Request, error: LLMError, wait: float) -> None:
+        self._emit(CallFailed(round=request.round, fault=error.fault, message=str(error), wait=wait))
+
+    def _emit(self, event: Event) -> None:
+        if isinstance(event, AnswerReceived):
+            self._answers[event.round, event.candidate, event.completion] = None
+        with self._emitting:  # calls in flight have news of their own
+            self._folder.emit(event)
+            self._console.update(event)
+            self._registry.plugins.on_event(event)
 
 
-def _broadcast(registry: Registry, folder: RunFolder, console: Console) -> Emit:
-    def emit(event: Event) -> None:
-        folder.emit(event)
-        console.update(event)
-        registry.plugins.on_event(event)
-
-    return emit
-
-
-def exit_code(outcome: Outcome, summary: Summary) -> int:
+def _exit_code(outcome: Outcome, summary: Summary, resumable: bool) -> int:
     """0 solved, 1 unsolved, or the code of the error that ended the run."""
-    if outcome.error is not None:
-        typer.echo(f"proc3s: {outcome.error}", err=True)
-        return outcome.error.exit_code
-    return 0 if summary.solved else 1
+    if outcome.error is None:
+        return 0 if summary.solved else 1
+    text = str(outcome.error)
+    if resumable and outcome.error.exit_code != 2:
+        text += f"\n  go on with: proc3s run --resume {summary.run_dir}"
+    typer.echo(f"proc3s: {text}", err=True)
+    return 0 if summary.solved else outcome.error.exit_code

@@ -1,0 +1,99 @@
+"""From `--llm NAME -L key=value` to something that can be asked."""
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+
+from pydantic import BaseModel
+
+from proc3s.asking import CallOptions, Patient
+from proc3s.budget import Account, Budget
+from proc3s.errors import Issue, LLMError, SpecError, UsageError, did_you_mean
+from proc3s.llms import LLM, Completion, Request
+from proc3s.options import options_model, part_options
+from proc3s.registry import Registry
+from proc3s.specfile import validate
+from proc3s.specs import LLMSpec
+
+
+@dataclass(frozen=True)
+class Chosen:
+    """A backend that was chosen: its spec, the model after its name, and both kinds of options."""
+
+    spec: LLMSpec
+    model: str
+    call: CallOptions
+    own: BaseModel | None
+
+    def make(self) -> LLM:
+        """The backend itself. Raises LLMError, e.g. if its key is missing."""
+        llm = self.spec.load()(self.model, self.own)
+        if not isinstance(llm, LLM):
+            message = f"makes a {type(llm).__name__}, which does not inherit proc3s.LLM"
+            raise SpecError([Issue(self.spec.target, f"llm {self.spec.name}", message)])
+        return llm
+
+
+def find_llm(registry: Registry, name: str, options: Mapping[str, str]) -> Chosen:
+    """The backend of `NAME`, `NAME:ARGUMENT`, `NAME/MODEL`, or what a plugin resolves.
+
+    Raises UsageError for an unknown name, SpecError for options that are wrong.
+    """
+    spec, model = _find(registry, name)
+    refuse_keys(options)
+    own = {k: v for k, v in options.items() if k not in CallOptions.model_fields}
+    call = {k: v for k, v in options.items() if k in CallOptions.model_fields}
+    return Chosen(spec, model, validate(CallOptions, call, f"llm {spec.name}"), _own(spec, own))
+
+
+def _own(spec: LLMSpec, given: Mapping[str, str]) -> BaseModel | None:
+    model = options_model(spec)
+    known = {*CallOptions.model_fields, *(model.model_fields if model else ())}
+    for name in given:
+        if name not in known:
+            raise UsageError(f"llm {spec.name} takes no option {name!r}{did_you_mean(name, known)}")
+    return part_options(spec, given)
+
+
+def refuse_keys(options: Iterable[str]) -> None:
+    """Raises UsageError if an option looks like a secret: options are logged."""
+    for name in options:
+        if any(part in name.lower() for part in ("key", "secret", "password")):
+            raise UsageError(
+                f"keys are never given as an option ({name}): they would be logged; set the provider's "
+                "environment variable instead"
+            )
+
+
+def _find(registry: Registry, name: str) -> tuple[LLMSpec, str]:
+    known = registry.all(LLMSpec)
+    for separator in (":", "/"):
+        head, _, rest = name.partition(separator)
+        if head in known:
+            return known[head], rest
+    found = registry.plugins.resolve_llm(name)
+    if not isinstance(found, LLMSpec):
+        raise UsageError(f"there is no LLM {name!r}{did_you_mean(name, known)} or PROVIDER/MODEL")
+    return found, name
+
+
+def patient(
+    chosen: Chosen,
+    llm: LLM,
+    budget: Budget,
+    spent: Iterable[Completion],
+    report: Callable[[Request, LLMError, float], None],
+) -> LLM:
+    """The backend with patience and a budget, of which some may be spent already.
+
+    Raises UsageError if there is a limit in dollars and nobody knows what a call costs.
+    """
+    price = chosen.call.price
+    if price is None and llm.live and budget.max_cost is not None:
+        price = llm.price
+        if price is None:
+            raise UsageError(
+                f"nobody knows what a call of {chosen.model or chosen.spec.name} costs, so --max-cost "
+                "cannot be kept; declare it with -L prompt_price=… -L completion_price=… (US dollars for a "
+                "million tokens)"
+            )
+    return Patient(llm, Account(budget, price, spent), chosen.call, report)

@@ -1,0 +1,117 @@
+"""What a run folder says of the rounds that were done, so that a run can go on in another process."""
+
+import itertools
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+from uuid import uuid4
+
+from proc3s.clock import STAGES, Clock
+from proc3s.conversation import Proposal, proposals_of
+from proc3s.errors import UsageError
+from proc3s.feedback import Diagnosis
+from proc3s.llms import LLM, Completion, Request, digest
+from proc3s.rounds import Attempt, Round
+from proc3s.runs import read_events, started
+from proc3s.state import Action
+
+
+@dataclass(frozen=True)
+class Answer:
+    """An answer of a run, and which request it was given to."""
+
+    round: int
+    candidate: int
+    sha256: str
+    completion: Completion
+
+
+@dataclass(frozen=True)
+class Past:
+    """Rounds that ended without a solution, every answer that was given, and the seconds all took.
+
+    Without arguments it is that of a run which begins.
+    """
+
+    id: str = field(default_factory=lambda: uuid4().hex[:8])
+    """Names the run."""
+    rounds: tuple[Round, ...] = ()
+    answers: tuple[Answer, ...] = ()
+    wall: dict[str, float] | None = None
+    cpu: dict[str, float] | None = None
+
+    def clock(self) -> Clock:
+        """A clock that goes on from there."""
+        return Clock(*STAGES, wall=self.wall, cpu=self.cpu)
+
+
+def past_of(run: Path) -> Past:
+    """The past of a run that was broken off. Raises UsageError if it came to its end, or is no run."""
+    events = read_events(run)
+    ended = [event for event in events if event["event"] == "run_ended"]
+    if ended and ended[-1]["summary"]["error"] is None:
+        raise UsageError(f"{run} came to its end (summary.json); there is nothing to go on with")
+    answers = answers_of(events)
+    done = [event for event in events if event["event"] == "round_ended"]
+    return Past(
+        id=started(run)["id"],
+        rounds=tuple(_round(events, answers, number) for number in range(len(done))),
+        answers=answers,
+        wall=done[-1]["seconds"] if done else None,
+        cpu=done[-1]["cpu_seconds"] if done else None,
+    )
+
+
+def answers_of(events: Sequence[dict[str, Any]]) -> tuple[Answer, ...]:
+    """Every answer in a log once, with the prompt that it was given to."""
+    prompts: dict[int, str] = {}
+    found: dict[Answer, None] = {}
+    for event in events:
+        if event["event"] == "prompt_rendered":
+            prompts[event["round"]] = event["sha256"]
+        elif event["event"] == "answer_received":
+            completion = Completion.model_validate(event["completion"])
+            key = (event["round"], event["candidate"], prompts.get(event["round"], ""))
+            found[Answer(*key, completion)] = None
+    return tuple(found)
+
+
+def _round(events: Sequence[dict[str, Any]], answers: Sequence[Answer], number: int) -> Round:
+    attempts = {e["candidate"]: e for e in events if e["event"] == "attempt_ended" and e["round"] == number}
+    given = [proposals_of(a.completion, number, a.candidate) for a in answers if a.round == number]
+    proposals = {proposal.candidate: proposal for proposal in itertools.chain(*given)}
+    kept = sorted(attempts.keys() & proposals.keys())
+    return Round(
+        proposals=tuple(proposals[candidate] for candidate in kept),
+        attempts=tuple(_attempt(attempts[candidate], proposals[candidate]) for candidate in kept),
+    )
+
+
+def _attempt(event: dict[str, Any], proposal: Proposal) -> Attempt:
+    fallback = event["fallback"]
+    return Attempt(
+        diagnosis=Diagnosis.model_validate(event["diagnosis"]),
+        round=proposal.round,
+        candidate=proposal.candidate,
+        fallback=tuple(Action.from_json(action) for action in fallback) if fallback else None,
+        nearest=event["nearest"],
+        samples=event["samples"],
+        evaluations=event["evaluations"],
+        rejected_by=event["rejected_by"],
+    )
+
+
+class Remembering(LLM):
+    """Gives the answers that a run has already to exactly the prompts that they were given to."""
+
+    def __init__(self, llm: LLM, answers: Sequence[Answer]) -> None:
+        self._llm = llm
+        self._known = {(a.round, a.candidate, a.sha256): a.completion for a in answers}
+        self.live = llm.live
+        self.price = llm.price
+
+    def complete(self, request: Request) -> Completion:
+        """The answer of then, else one of now."""
+        key = (request.round, request.candidate, digest(request.messages))
+        return self._known.get(key) or self._llm.complete(request)

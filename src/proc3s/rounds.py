@@ -1,0 +1,184 @@
+"""One round: the proposed programs are grounded, race for the samples, and leave a diagnosis each."""
+
+from collections.abc import Mapping, Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass, field, replace
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from proc3s.audit import Audit
+from proc3s.conversation import Exchange, Proposal
+from proc3s.errors import Proc3sError
+from proc3s.evaluation import Evaluator
+from proc3s.events import AttemptEnded, Audited, BatchEvaluated, Emit, ProgramExtracted, SketchLoaded
+from proc3s.feedback import Diagnosis, diagnose
+from proc3s.grounding import Opened, Repeatable, Setup, open_sketch
+from proc3s.influence import influence
+from proc3s.problem import Trial
+from proc3s.sketch.box import prewarm
+from proc3s.sketch.errors import SketchError
+from proc3s.solving import Search, race
+from proc3s.state import Plan, source_text
+
+
+@dataclass(frozen=True)
+class Attempt:
+    """What one program came to: the accepted trial, or a plan to fall back on, and a diagnosis."""
+
+    diagnosis: Diagnosis
+    round: int = 0
+    candidate: int = 0
+    solution: Trial | None = None
+    fallback: Plan | None = None
+    nearest: Mapping[str, Any] | None = None
+    """The plan that came furthest and what it violates, as JSON."""
+    broken_off: Proc3sError | None = None
+    samples: int = 0
+    evaluations: int = 0
+    rejected_by: Mapping[str, int] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Round:
+    """The programs of a round and what they came to, in the same order."""
+
+    proposals: tuple[Proposal, ...]
+    attempts: tuple[Attempt, ...]
+
+    @property
+    def ranking(self) -> list[int]:
+        """Numbers of the attempts, the solved one or the furthest first; equals in order."""
+        ranks = [(a.solution is not None, a.diagnosis.progress) for a in self.attempts]
+        return sorted(range(len(ranks)), key=lambda i: ranks[i], reverse=True)
+
+    @property
+    def best(self) -> int:
+        """Number of the attempt that was solved or got furthest."""
+        return self.ranking[0]
+
+    @property
+    def exchange(self) -> Exchange:
+        """What the next question shows of this round."""
+        return Exchange(self.proposals[self.best].answer, self.attempts[self.best].diagnosis)
+
+    @property
+    def samples(self) -> int:
+        """Samples of all programs together."""
+        return sum(attempt.samples for attempt in self.attempts)
+
+
+@dataclass(frozen=True)
+class Entrant:
+    """A loaded program with its search under way."""
+
+    setup: Setup
+    opened: Opened
+    evaluator: Evaluator
+    search: Search
+    audit: Audit | None
+
+
+def run_round(setup: Setup, proposals: Sequence[Proposal], emit: Emit) -> Round:
+    """Ground every program, let them race, diagnose what failed."""
+    with ExitStack() as boxes:
+        entrants = [_enter(setup, proposal, boxes, emit) for proposal in proposals]
+        race([e.search for e in entrants if isinstance(e, Entrant)], _budget(setup, len(entrants)))
+        attempts = tuple(
+            _attempt(e, proposal, emit)
+            if isinstance(e, Entrant)
+            else Attempt(diagnose((), e), proposal.round, proposal.candidate)
+            for e, proposal in zip(entrants, proposals, strict=True)
+        )
+    for attempt in attempts:
+        emit(_ended(attempt))
+    return Round(tuple(proposals), attempts)
+
+
+def _budget(setup: Setup, programs: int = 1) -> int:
+    """Samples that so many programs may take together."""
+    return {"none": 0, "one": programs, "budget": setup.problem.samples}[setup.method.samples]
+
+
+def _enter(setup: Setup, proposal: Proposal, boxes: ExitStack, emit: Emit) -> Entrant | SketchError:
+    """A search of the program, not begun yet; or why there can be none."""
+    round_, candidate = proposal.round, proposal.candidate
+    try:
+        source = proposal.program()
+        emit(ProgramExtracted(round=round_, candidate=candidate, source=source))
+        setup = replace(setup, problem=replace(setup.problem, program=source))
+        opened = boxes.enter_context(open_sketch(setup))
+        prewarm(setup.limits, setup.locked)  # confirms the winner, or serves the next program
+        samplers = opened.sketch.space.samplers.items()
+        parameters = {name: source_text(sampler) for name, sampler in samplers}
+        emit(SketchLoaded(round=round_, candidate=candidate, parameters=parameters, log=opened.log))
+        return _search(setup, opened, proposal, emit)
+    except SketchError as error:
+        return error
+
+
+def _search(setup: Setup, opened: Opened, proposal: Proposal, emit: Emit) -> Entrant:
+    audit = Audit(setup.audit, setup.problem.seed) if setup.audit else None
+    evaluator = Evaluator(setup.problem, opened.sketch, setup.executor, Repeatable(setup), audit)
+    # A key of its own for every program, so that no search draws the numbers that made the scene.
+    key = (proposal.round, proposal.candidate) if proposal.candidate else (proposal.round,)
+    rng = np.random.default_rng(np.random.SeedSequence(setup.problem.seed, spawn_key=key))
+    space = replace(opened.sketch.space, probe=lambda: influence(opened.sketch))
+    solver = setup.make_solver(space, _budget(setup), rng)
+    report = partial(BatchEvaluated.from_trials, proposal.round, proposal.candidate)
+    search = Search(space, solver, evaluator, lambda trials: emit(report(trials)))
+    return Entrant(setup, opened, evaluator, search, audit)
+
+
+def _attempt(entrant: Entrant, proposal: Proposal, emit: Emit) -> Attempt:
+    setup, search = entrant.setup, entrant.search
+    if entrant.audit and not search.broken_off:
+        found = entrant.audit.check(setup.problem, setup.executor)
+        emit(Audited.of(proposal.round, proposal.candidate, found))
+    return Attempt(
+        diagnosis=diagnose(search.trials, search.halted, setup.problem, search.space),
+        round=proposal.round,
+        candidate=proposal.candidate,
+        solution=search.solution,
+        fallback=entrant.opened.plan if setup.method.fallback == "last_plan" else None,
+        nearest=_nearest(entrant),
+        broken_off=search.broken_off,
+        samples=entrant.evaluator.samples,
+        evaluations=entrant.evaluator.evaluations,
+        rejected_by=dict(entrant.evaluator.rejected_by),
+    )
+
+
+def _nearest(entrant: Entrant) -> Mapping[str, Any] | None:
+    """The sample that came furthest, if none was accepted."""
+    best = max(entrant.search.trials, key=lambda trial: trial.progress, default=None)
+    if best is None or best.accepted or not (plan := best.plan or _again(entrant, best)):
+        return None
+    return {
+        "reached": best.reached,
+        "plan": [action.to_json() for action in plan],
+        "violations": [violation.to_json() for violation in best.violations],
+    }
+
+
+def _again(entrant: Entrant, trial: Trial) -> Plan | None:
+    """The plan of a sample that a screen rejected, made again to be shown; None if the program fails."""
+    try:
+        batch = entrant.opened.sketch.plans(np.array([trial.u]), trial.index)
+    except SketchError:
+        return None
+    return None if 0 in batch.errors else batch.plan(0)
+
+
+def _ended(attempt: Attempt) -> AttemptEnded:
+    return AttemptEnded(
+        round=attempt.round,
+        candidate=attempt.candidate,
+        diagnosis=attempt.diagnosis,
+        samples=attempt.samples,
+        evaluations=attempt.evaluations,
+        rejected_by=dict(attempt.rejected_by),
+        fallback=[action.to_json() for action in attempt.fallback] if attempt.fallback else None,
+        nearest=dict(attempt.nearest) if attempt.nearest else None,
+    )

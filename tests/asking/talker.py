@@ -1,0 +1,40 @@
+"""A backend in a loose file: says what a script tells it, and writes down what it was asked.
+
+The script is a JSON list, one entry a call: a text, a list of texts (candidates), or an object with fields of
+a completion, or with a `fault`. The count of calls goes on from process to process.
+"""
+
+import json
+import time
+from pathlib import Path
+
+from proc3s import LLM, Candidate, Completion, LLMError, LLMSpec, Price, hookimpl
+
+
+class Talker(LLM):
+    def __init__(self, path, options):
+        self._script = Path(path)
+        self._asked = self._script.with_suffix(".asked")
+        cheap = self._script.with_suffix(".price")
+        self.price = Price.model_validate_json(cheap.read_text()) if cheap.exists() else None
+
+    def complete(self, request):
+        with self._asked.open("a") as file:
+            file.write(request.model_dump_json() + "\n")
+        calls = len(self._asked.read_text().splitlines())
+        entry = json.loads(self._script.read_text())[calls - 1]
+        if not isinstance(entry, dict):
+            entry = {"texts": [entry] if isinstance(entry, str) else entry}
+        time.sleep(entry.pop("seconds", 0))
+        if "fault" in entry:
+            raise LLMError(entry["message"], entry["fault"], entry.get("retry_after"))
+        finish = entry.pop("finish", "stop")
+        candidates = tuple(Candidate(text=text, finish_reason=finish) for text in entry.pop("texts"))
+        return Completion(candidates=candidates, model="talker-1", **entry)
+
+
+@hookimpl
+def register_llms(register):
+    register(
+        LLMSpec(name="talker", summary="Says what it is told.", usage="talker:FILE", target="talker:Talker")
+    )
