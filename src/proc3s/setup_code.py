@@ -3,10 +3,14 @@
 The prompt shows exactly the text that the program's box runs first.
 """
 
+import ast
+import inspect
+import textwrap
 from collections.abc import Iterator
 
 from proc3s.domain import Domain
-from proc3s.specs import FieldSpec, SamplerSpec, TypeSpec
+from proc3s.errors import Issue, SpecError
+from proc3s.specs import FieldSpec, SamplerSpec, Target, TypeSpec
 from proc3s.state import split_type
 
 _HEADER = """\
@@ -49,7 +53,24 @@ def _class(name: str, summary: str, lines: list[str]) -> str:
 
 
 def _state_class(name: str, spec: TypeSpec) -> str:
-    return _class(name, spec.summary, [_field(n, f) for n, f in spec.fields.items()])
+    text = _class(name, spec.summary, [_field(n, f) for n, f in spec.fields.items()])
+    return f"{text}\n{_methods(spec.methods)}" if spec.methods else text
+
+
+def _methods(target: str) -> str:
+    """The source of a class without its head: what it defines, still indented."""
+    source = inspect.getsource(Target(target=target).load())
+    body = ast.parse(source).body[0]
+    assert isinstance(body, ast.ClassDef)
+    first = min(node.lineno - len(node.decorator_list) for node in _functions(body, target))
+    return textwrap.indent(textwrap.dedent("\n".join(source.splitlines()[first - 1 :])), "    ") + "\n"
+
+
+def _functions(body: ast.ClassDef, target: str) -> list[ast.FunctionDef]:
+    found = [node for node in body.body if isinstance(node, ast.FunctionDef)]
+    if not found:
+        raise SpecError([Issue(target, "methods", "defines no method")])
+    return found
 
 
 def _field(name: str, spec: FieldSpec) -> str:

@@ -81,6 +81,8 @@ class TypeSpec(Spec):
     """One sentence for the reader of the prompt."""
     fields: dict[Identifier, FieldSpec]
     """Fields in order."""
+    methods: ImportString | None = None
+    """A class whose methods programs may call; its source stands in the prompt and in the program's box."""
 
 
 class ConstantSpec(Spec):
