@@ -186,6 +186,8 @@ class PlanExecuted(OfProgram):
     violations: list[dict[str, Any]]
     goal_reached: bool | None
     goal_reason: str
+    goal_expected: bool | None = None
+    """The judge's verdict on the state that the world which accepted the plan ends in."""
 
 
 class RunEnded(Event):

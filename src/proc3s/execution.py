@@ -5,21 +5,28 @@ from pathlib import Path
 from typing import Literal
 
 from proc3s.constraints import Violation
+from proc3s.errors import blame
 from proc3s.events import Emit, PlanExecuted
 from proc3s.problem import Problem, carry_out, judge
-from proc3s.state import Plan
+from proc3s.specs import Target
+from proc3s.state import Plan, State
 from proc3s.world import Score
 
 
 @dataclass(frozen=True)
 class Execution:
-    """A plan that was carried out to its end, what it violated, and the verdict; None without a judge."""
+    """A plan that was carried out to its end, and the verdicts on it; a score is None without a judge.
+
+    `violations` are those of the world that accepts plans. `score` is on the state that the execution world
+    ended in, `expected` on that of the other.
+    """
 
     plan: Plan
     executed: Literal["solution", "fallback"]
     violations: tuple[Violation, ...]
     score: Score | None
     reason: str
+    expected: Score | None
 
 
 def execute(
@@ -30,30 +37,48 @@ def execute(
     picture: Path | None,
     emit: Emit,
 ) -> Execution:
-    """Carry a plan out in the execution world without stopping at violations; `picture` takes a PNG.
+    """Carry a plan out open loop, without stopping at violations; `picture` takes a PNG of the outcome.
     `place` is the round and the candidate whose program the plan is from.
 
     A fallback that turns out to violate nothing is a solution.
     """
-    world = problem.domain.make_world(problem.domain.spec.execution)
+    spec = problem.domain.spec
+    violations, final = _carry_out(problem, plan, spec.world, None if spec.execution else picture)
+    expected, reason = judge(problem, final, plan)
+    score = expected
+    if spec.execution:
+        _, final = _carry_out(problem, plan, spec.execution, picture)
+        score, reason = judge(problem, final, plan)
+    if not violations:
+        executed = "solution"
+    execution = Execution(plan, executed, violations, score, reason, expected)
+    emit(_executed(execution, place))
+    return execution
+
+
+def _carry_out(
+    problem: Problem, plan: Plan, target: Target, picture: Path | None
+) -> tuple[tuple[Violation, ...], State]:
+    """What the plan violates in a world, and the state it ends in."""
+    world = problem.domain.make_world(target)
     try:
-        trial, final = carry_out(world, problem, plan, stop=False)
-        if picture is not None:
-            world.render(plan, picture)
+        with blame("world"):
+            trial, final = carry_out(world, problem, plan, stop=False)
+            if picture is not None:
+                world.render(plan, picture)
     finally:
         world.close()
-    if not trial.violations:
-        executed = "solution"
-    score, reason = judge(problem, final, plan)
-    emit(
-        PlanExecuted(
-            round=place[0],
-            candidate=place[1],
-            executed=executed,
-            plan=[action.to_json() for action in plan],
-            violations=[violation.to_json() for violation in trial.violations],
-            goal_reached=score.reached if score else None,
-            goal_reason=reason,
-        )
+    return trial.violations, final
+
+
+def _executed(execution: Execution, place: tuple[int, int]) -> PlanExecuted:
+    return PlanExecuted(
+        round=place[0],
+        candidate=place[1],
+        executed=execution.executed,
+        plan=[action.to_json() for action in execution.plan],
+        violations=[violation.to_json() for violation in execution.violations],
+        goal_reached=execution.score.reached if execution.score else None,
+        goal_reason=execution.reason,
+        goal_expected=execution.expected.reached if execution.expected else None,
     )
-    return Execution(plan, executed, trial.violations, score, reason)

@@ -31,6 +31,8 @@ class Summary(BaseModel):
     goal_reached: bool | None = None
     """The judge says that the instruction is fulfilled; null without a judge."""
     goal_reason: str | None = None
+    goal_expected: bool | None = None
+    """The same verdict on the world that accepted the plan; execution may end otherwise."""
     rounds: int = 0
     """Feedback rounds after the first answer."""
     samples: int = 0
@@ -73,6 +75,7 @@ def summarize(
         executed=execution.executed if execution else "none",
         goal_reached=execution.score.reached if execution and execution.score else None,
         goal_reason=execution.reason if execution else None,
+        goal_expected=execution.expected.reached if execution and execution.expected else None,
         rounds=outcome.feedback,
         samples=sum(attempt.samples for attempt in outcome.attempts),
         evaluations=sum(attempt.evaluations for attempt in outcome.attempts),

@@ -14,6 +14,7 @@ KEYS = [
     "executed",
     "goal_reached",
     "goal_reason",
+    "goal_expected",
     "rounds",
     "samples",
     "evaluations",
