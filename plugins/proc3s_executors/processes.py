@@ -15,14 +15,14 @@ from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
 from pathlib import Path
 
-from proc3s import Plan, Problem, Rollouts, Trial, UsageError, loose_files, without_secrets
+from proc3s import Plan, Problem, Rollouts, Trial, UsageError, Violation, loose_files, without_secrets
 
 _CHUNK_SECONDS = 0.02
 """Work that goes to a worker at once: long against sending it, short to wait for when nobody needs it."""
 _MOST_PLANS = 64
 _AHEAD = 2
 """Chunks under way for each worker."""
-_MOST_RESTARTS = 5
+_MOST_RESTARTS = 6
 """So often in a row may workers die without a result in between."""
 
 
@@ -38,8 +38,8 @@ class Answer:
 class Processes:
     """A pool of `jobs` spawned workers. Results come in the order of the plans, whoever computed them.
 
-    A worker that dies takes only time: what it had not answered is computed again. Raises UsageError if
-    workers keep dying.
+    A worker that dies takes only time: what it had not answered is computed again. A plan that kills its
+    worker every time is rejected for that. Raises UsageError if workers keep dying whatever they do.
     """
 
     def __init__(self, jobs: int = 2) -> None:
@@ -63,7 +63,11 @@ class Processes:
                     answer = running[0][1].result()
                 except BrokenProcessPool:
                     self._restart()
-                    running = deque((chunk, self._submit(key, chunk)) for chunk, _ in running)
+                    suspects, *others = [chunk for chunk, _ in running]
+                    running.clear()
+                    for plan in suspects:
+                        yield self._alone(key, plan)
+                    running.extend((chunk, self._submit(key, chunk)) for chunk in others)
                     continue
                 running.popleft()
                 self._learn(answer)
@@ -73,6 +77,21 @@ class Processes:
         finally:
             for _, future in running:
                 future.cancel()
+
+    def _alone(self, key: bytes, plan: Plan) -> Trial:
+        """The trial of a plan that may be what kills workers; it is if it kills two of them by itself."""
+        for _ in range(2):
+            try:
+                answer = self._submit(key, [plan]).result()
+            except BrokenProcessPool:
+                self._restart()
+                continue
+            self._learn(answer)
+            if answer.error is not None:
+                raise answer.error
+            return answer.trials[0]
+        crash = Violation("world", 0, plan[0].skill, -1.0, "the simulator crashed on this plan")
+        return Trial(plan, (crash,))
 
     def _next_chunk(self, plans: Iterator[Plan]) -> list[Plan]:
         return list(itertools.islice(plans, self._plans_per_chunk))

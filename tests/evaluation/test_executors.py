@@ -106,6 +106,16 @@ def test_a_killed_worker_costs_time_and_no_result(problem, search, serial, tmp_p
     assert killed >= 2
 
 
+def test_a_plan_that_kills_its_worker_costs_that_plan_alone(problem, search, two, serial):
+    """One in about fifty plans takes the simulator down; all others get their verdicts."""
+    deadly = search(problem(world={"deadly": (14.0, 14.6)}), two, budget=60, exhaust=True)
+    whole = search(problem(), serial, budget=60, exhaust=True)
+    crashed = [trial for trial in deadly.trials if "crashed" in "".join(v.text for v in trial.violations)]
+    assert 1 <= len(crashed) < 4
+    others = [(a, b) for a, b in zip(deadly.trials, whole.trials, strict=True) if a not in crashed]
+    assert all(a == b for a, b in others)
+
+
 def test_workers_that_keep_dying_are_given_up(problem, monkeypatch):
     executor = Processes(1)
     made = problem(world={"seconds": 0.2})
@@ -120,7 +130,7 @@ def test_workers_that_keep_dying_are_given_up(problem, monkeypatch):
     monkeypatch.setattr(executor, "_submit", and_kill)
     try:
         with pytest.raises(UsageError, match="worker processes died; is there memory enough for --jobs 1"):
-            list(executor.map(made, [(Action("hop", (1.0,)),)]))
+            list(executor.map(made, [(Action("hop", (1.0,)),)] * 4))
     finally:
         executor.close()
 

@@ -1,6 +1,8 @@
 """A loose plugin file: a walker on a line with pits, whose steps may take as long as a simulator's."""
 
 import dataclasses
+import os
+import signal
 import time
 from pathlib import Path
 
@@ -19,14 +21,17 @@ def register_domains(register):
 class Walk(World):
     """`seconds` of work and `asleep` of waiting a step; the file `count` notes every step in any process."""
 
-    def __init__(self, domain, seconds=0.0, asleep=0.0, count=None, broken_at=None):
+    def __init__(self, domain, seconds=0.0, asleep=0.0, count=None, broken_at=None, deadly=None):
         super().__init__(domain)
+        self._deadly = deadly
         self._seconds, self._count, self._broken_at = seconds, count, broken_at
         self._asleep = asleep
 
     def work(self, place):
         if self._broken_at is not None and place > self._broken_at:
             raise RuntimeError("the simulator gave up")
+        if self._deadly is not None and self._deadly[0] < place < self._deadly[1]:
+            os.kill(os.getpid(), signal.SIGSEGV)
         if self._count:
             with Path(self._count).open("a") as file:
                 file.write("x")
