@@ -95,6 +95,8 @@ class Lookup:
         given = [r.completion for r in near if r.completion.source in ("live", "recorded")]
         model = (given[-1].model_asked or given[-1].model) if given else "PROVIDER/MODEL"
         command = ["proc3s", "run", request.task, "--method", request.method, "--seed", str(request.seed)]
+        many = request.candidate + request.sampling.n
+        command += ["--candidates", str(many)] if many > 1 else []
         kept = [] if (self.path / runs.LOG).is_file() else ["--record", str(self.path)]
         return shlex.join([*command, "--llm", model, *kept])
 

@@ -1,14 +1,16 @@
 """Asking a model: patience with faults that pass, all candidates of a round, and within the budget."""
 
+import threading
 import time
-from collections.abc import Callable, Iterator
-from concurrent.futures import ThreadPoolExecutor
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator
+from queue import SimpleQueue
 from typing import TYPE_CHECKING
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from proc3s.budget import Account
-from proc3s.errors import TRANSIENT, BudgetSpent, LLMError, blame
+from proc3s.errors import TRANSIENT, BudgetSpent, LLMError, SpecError, blame
 from proc3s.llms import LLM, Candidate, Completion, Effort, Price, Request, Sampling
 from proc3s.secrets import redacted
 
@@ -43,6 +45,12 @@ class CallOptions(BaseModel):
         None, ge=0, description="US dollars for a million tokens of answer"
     )
 
+    @model_validator(mode="after")
+    def _whole_price(self) -> "CallOptions":
+        if (self.prompt_price is None) != (self.completion_price is None):
+            raise ValueError("prompt_price and completion_price go together")
+        return self
+
     @property
     def price(self) -> Price | None:
         """The declared price, if both parts are given."""
@@ -66,41 +74,37 @@ class Patient(LLM):
     """A backend with patience: passing faults are retried, a cut answer gets twice the room once.
 
     Only whole answers come out. `report` hears of every failed attempt that another one follows, with the
-    seconds until then.
+    seconds until then; `name` is how the backend was chosen.
     """
 
     def __init__(
         self,
         llm: LLM,
+        name: str,
         account: Account,
         options: CallOptions,
         report: Callable[[Request, LLMError, float], None],
     ) -> None:
         self._llm = llm
+        self._name = name
         self._account = account
         self._options = options
         self._report = report
         self.live = llm.live
 
     def complete(self, request: Request) -> Completion:
-        """The whole candidates of an answer; one that was there already as it is.
-
-        Raises LLMError or BudgetSpent.
-        """
+        """The whole candidates of an answer. Raises LLMError or BudgetSpent."""
         if not self.live:
-            return self._once(request)
+            return _uncut(self._once(request))
         first = self._repeatedly(request)
         if whole := _whole(first):
             return whole
         wider = request.sampling.model_copy(update={"max_tokens": 2 * _room(request, first)})
+        self._report(request, _cut_off(first), 0.0)
         second = self._repeatedly(request.model_copy(update={"sampling": wider}))
         if whole := _whole(second):
             return whole.model_copy(update={"attempts": first.attempts + second.attempts})
-        raise LLMError(
-            f"{second.model}: the answer was cut off at {wider.max_tokens} tokens too; "
-            "raise -L max_tokens=N, or choose a model that writes less",
-            "cut_off",
-        )
+        raise _cut_off(second)
 
     def _repeatedly(self, request: Request) -> Completion:
         import tenacity
@@ -125,15 +129,26 @@ class Patient(LLM):
     def _once(self, request: Request) -> Completion:
         try:
             with blame("llm"):
-                return self._llm.complete(request)
+                completion: object = self._llm.complete(request)
         except LLMError as error:
             raise LLMError(redacted(str(error)), error.fault, error.retry_after) from error
+        except SpecError as error:
+            raise LLMError(redacted(str(error))) from error
+        if not isinstance(completion, Completion):
+            raise LLMError(f"{self._name}: complete() gave a {type(completion).__name__}, no Completion")
+        if not completion.candidates and not self.live:
+            raise LLMError(f"{self._name}: the answer holds no candidates", "no_answer")
+        return completion
 
     def _charged(self, request: Request) -> Completion:
         charged = self._account.charge(request)
         begun = time.perf_counter()
-        completion = self._once(request)
-        changes: dict[str, float | None] = {}
+        try:
+            completion = self._once(request)
+        except LLMError as error:
+            self._account.release(charged, error)
+            raise
+        changes: dict[str, object] = {"model_asked": completion.model_asked or self._name}
         if completion.latency is None:
             changes["latency"] = time.perf_counter() - begun
         if self._options.price is not None:
@@ -158,7 +173,7 @@ def _wait(state: "RetryCallState") -> float:
 
     error = state.outcome.exception() if state.outcome else None
     if isinstance(error, LLMError) and error.retry_after is not None:
-        return error.retry_after
+        return max(error.retry_after, 0.0)
     return (tenacity.wait_exponential(multiplier=0.5, max=10.0) + tenacity.wait_random(0.0, 0.25))(state)
 
 
@@ -179,6 +194,24 @@ def _cut(candidate: Candidate) -> bool:
     return candidate.finish_reason == "length"
 
 
+def _cut_off(completion: Completion) -> LLMError:
+    tokens = completion.usage.completion_tokens
+    where = f" after {tokens:,} tokens" if tokens else ""
+    return LLMError(
+        f"{completion.model}: the answer was cut off{where}; raise -L max_tokens=N, or choose a model that "
+        "writes less",
+        "cut_off",
+    )
+
+
+def _uncut(completion: Completion) -> Completion:
+    """An answer that was there already, without candidates that are not whole. Raises LLMError."""
+    whole = tuple(candidate for candidate in completion.candidates if not _cut(candidate))
+    if not whole:
+        raise _cut_off(completion)
+    return completion.model_copy(update={"candidates": whole})
+
+
 def _whole(completion: Completion) -> Completion | None:
     """The completion with the candidates that have a text and were not cut off; None without any."""
     whole = tuple(c for c in completion.candidates if c.text.strip() and not _cut(c))
@@ -190,24 +223,55 @@ def _room(request: Request, completion: Completion) -> int:
     return request.sampling.max_tokens or completion.usage.completion_tokens or 4096
 
 
-def ask_all(llm: LLM, request: Request, jobs: int, warn: Callable[[str], None]) -> Iterator[Completion]:
-    """`request.sampling.n` candidates: what one answer brings, and one call for each of the others.
+def ask_all(
+    llm: LLM, request: Request, jobs: int, warn: Callable[[str], None]
+) -> Iterator[tuple[int, Completion]]:
+    """`request.sampling.n` candidates as they come, each answer with the number of its first.
 
-    At most `jobs` calls are in flight. The first call must succeed; where a later one fails the round goes on
-    without that candidate, and `warn` is told.
+    What one call does not bring is asked for one by one, with at most `jobs` calls in flight. The first call
+    must succeed; where a later one fails the round goes on without that candidate, and `warn` is told.
     """
     first = llm.complete(request)
-    yield first
+    yield request.candidate, first
     missing = range(request.candidate + len(first.candidates), request.candidate + request.sampling.n)
-    if not missing:
-        return
-    with ThreadPoolExecutor(jobs) as pool:
-        calls = [pool.submit(llm.complete, _alone(request, number)) for number in missing]
-        for number, call in zip(missing, calls, strict=True):
+    for number, outcome in _in_flight(llm, request, missing, jobs):
+        if isinstance(outcome, Completion):
+            yield number, outcome
+        elif isinstance(outcome, LLMError | BudgetSpent):
+            warn(f"candidate {number} is missing: {outcome}")
+        else:
+            raise outcome
+
+
+def _in_flight(
+    llm: LLM, request: Request, numbers: Iterable[int], jobs: int
+) -> Iterator[tuple[int, Completion | Exception]]:
+    """Answers or errors as they come. Closed early, calls that are not begun are not made.
+
+    The threads are daemons: an executor's would keep the program alive for as long as a call takes.
+    """
+    todo = deque(numbers)
+    count = len(todo)
+    done: SimpleQueue[tuple[int, Completion | Exception]] = SimpleQueue()
+
+    def work() -> None:
+        while True:
             try:
-                yield call.result()
-            except (LLMError, BudgetSpent) as error:
-                warn(f"candidate {number} is missing: {error}")
+                number = todo.popleft()
+            except IndexError:
+                return
+            try:
+                done.put((number, llm.complete(_alone(request, number))))
+            except Exception as error:
+                done.put((number, error))
+
+    try:
+        for _ in range(min(jobs, count)):
+            threading.Thread(target=work, daemon=True).start()
+        for _ in range(count):
+            yield done.get()
+    finally:
+        todo.clear()
 
 
 def _alone(request: Request, candidate: int) -> Request:

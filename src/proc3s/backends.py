@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from pydantic import BaseModel
 
 from proc3s.asking import CallOptions, Patient
-from proc3s.budget import Account, Budget
-from proc3s.errors import Issue, LLMError, SpecError, UsageError, did_you_mean
-from proc3s.llms import LLM, Completion, Request
+from proc3s.budget import Account, Budget, Ledger
+from proc3s.errors import Issue, LLMError, SpecError, UsageError, blame, did_you_mean
+from proc3s.llms import LLM, Request
 from proc3s.options import options_model, part_options
 from proc3s.registry import Registry
 from proc3s.specfile import validate
@@ -17,8 +17,9 @@ from proc3s.specs import LLMSpec
 
 @dataclass(frozen=True)
 class Chosen:
-    """A backend that was chosen: its spec, the model after its name, and both kinds of options."""
+    """A backend that was chosen: by which name, its spec, the model after its name, both kinds of options."""
 
+    name: str
     spec: LLMSpec
     model: str
     call: CallOptions
@@ -26,7 +27,8 @@ class Chosen:
 
     def make(self) -> LLM:
         """The backend itself. Raises LLMError, e.g. if its key is missing."""
-        llm = self.spec.load()(self.model, self.own)
+        with blame(f"llm {self.spec.name}"):
+            llm = self.spec.load()(self.model, self.own)
         if not isinstance(llm, LLM):
             message = f"makes a {type(llm).__name__}, which does not inherit proc3s.LLM"
             raise SpecError([Issue(self.spec.target, f"llm {self.spec.name}", message)])
@@ -42,7 +44,7 @@ def find_llm(registry: Registry, name: str, options: Mapping[str, str]) -> Chose
     refuse_keys(options)
     own = {k: v for k, v in options.items() if k not in CallOptions.model_fields}
     call = {k: v for k, v in options.items() if k in CallOptions.model_fields}
-    return Chosen(spec, model, validate(CallOptions, call, f"llm {spec.name}"), _own(spec, own))
+    return Chosen(name, spec, model, validate(CallOptions, call, f"llm {spec.name}"), _own(spec, own))
 
 
 def _own(spec: LLMSpec, given: Mapping[str, str]) -> BaseModel | None:
@@ -78,22 +80,22 @@ def _find(registry: Registry, name: str) -> tuple[LLMSpec, str]:
 
 def patient(
     chosen: Chosen,
-    llm: LLM,
     budget: Budget,
-    spent: Iterable[Completion],
+    ledger: Ledger,
+    record: Callable[[Ledger], None],
     report: Callable[[Request, LLMError, float], None],
 ) -> LLM:
     """The backend with patience and a budget, of which some may be spent already.
 
-    Raises UsageError if there is a limit in dollars and nobody knows what a call costs.
+    Raises LLMError if the backend cannot be made, UsageError if there is a limit in dollars and nobody knows
+    what a call costs.
     """
-    price = chosen.call.price
+    llm, price = chosen.make(), chosen.call.price
     if price is None and llm.live and budget.max_cost is not None:
         price = llm.price
         if price is None:
             raise UsageError(
-                f"nobody knows what a call of {chosen.model or chosen.spec.name} costs, so --max-cost "
-                "cannot be kept; declare it with -L prompt_price=… -L completion_price=… (US dollars for a "
-                "million tokens)"
+                f"nobody knows what a call of {chosen.name} costs, so --max-cost cannot be kept; declare it "
+                "with -L prompt_price=… -L completion_price=… (US dollars for a million tokens)"
             )
-    return Patient(llm, Account(budget, price, spent), chosen.call, report)
+    return Patient(llm, chosen.name, Account(budget, price, ledger, record), chosen.call, report)

@@ -1,12 +1,12 @@
 """What language models may cost: an account of calls, tokens and money, and the limits on it."""
 
 import threading
-from collections.abc import Iterable
+from collections.abc import Callable
 from typing import Annotated, TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from proc3s.errors import BudgetSpent
+from proc3s.errors import BudgetSpent, LLMError
 from proc3s.llms import Completion, Price, Request, Usage, estimate_tokens
 
 N = TypeVar("N", int, float)
@@ -38,67 +38,127 @@ class Spent(BaseModel):
     latency: float | None = 0.0
     """Seconds that the providers took; for recorded answers, when they were recorded."""
 
+    def plus(self, other: "Spent") -> "Spent":
+        """Both together."""
+        return Spent(
+            calls=self.calls + other.calls,
+            prompt_tokens=_sum(self.prompt_tokens, other.prompt_tokens),
+            completion_tokens=_sum(self.completion_tokens, other.completion_tokens),
+            cost=_sum(self.cost, other.cost),
+            latency=_sum(self.latency, other.latency),
+        )
 
-def total(completions: Iterable[Completion]) -> Spent:
-    """What these answers cost when they were given; a text that no model wrote costs nothing."""
-    given = [c for c in completions if c.source in ("live", "recorded")]
-    if not given:
-        return Spent()
+
+def spent_on(completion: Completion, calls: int) -> Spent:
+    """What an answer cost."""
+    usage = completion.usage
     return Spent(
-        calls=sum(c.attempts for c in given),
-        prompt_tokens=_sum(c.usage.prompt_tokens for c in given),
-        completion_tokens=_sum(c.usage.completion_tokens for c in given),
-        cost=_sum(c.cost for c in given),
-        latency=_sum(c.latency for c in given),
+        calls=calls,
+        prompt_tokens=usage.prompt_tokens,
+        completion_tokens=usage.completion_tokens,
+        cost=completion.cost,
+        latency=completion.latency,
     )
 
 
-def _sum(values: Iterable[N | None]) -> N | None:
-    found = list(values)
-    known = [value for value in found if value is not None]
-    return sum(known[1:], start=known[0]) if known and len(known) == len(found) else None
+def _sum(one: N | None, other: N | None) -> N | None:
+    return None if one is None or other is None else one + other
+
+
+class Ledger(BaseModel):
+    """What counts against a budget, estimates where nobody knows better; and what is known to be spent."""
+
+    model_config = ConfigDict(frozen=True)
+
+    calls: int = 0
+    tokens: int = 0
+    cost: float = 0.0
+    """US dollars."""
+    spent: Spent = Spent()
 
 
 class Account:
     """Counts live calls against a budget; several threads may use it at once.
 
     A call is charged with an estimate before it is made, which its true figures replace where they are
-    known. So nothing is ever counted as free because a provider does not say what it cost.
+    known. So nothing is ever counted as free because a provider does not say what it cost. `record` gets the
+    ledger whenever it changed after a call; an account that begins with it goes on from there.
     """
 
-    def __init__(self, budget: Budget, price: Price | None = None, spent: Iterable[Completion] = ()) -> None:
+    def __init__(
+        self,
+        budget: Budget,
+        price: Price | None = None,
+        ledger: Ledger | None = None,
+        record: Callable[[Ledger], None] = lambda ledger: None,
+    ) -> None:
         self._budget = budget
         self._price = price
+        self._ledger = ledger or Ledger()
+        self._record = record
         self._lock = threading.Lock()
-        self._calls, self._tokens, self._cost = 0, 0, 0.0
-        for completion in spent:
-            self._calls += completion.attempts
-            self._tokens += _tokens(completion.usage) or _length(completion)
-            self._cost += self._cost_of(completion.usage, completion) or 0.0
 
     def charge(self, request: Request) -> Usage:
         """Before a call: count it, with its prompt. Raises BudgetSpent if that is more than is left."""
         prompt = Usage(prompt_tokens=estimate_tokens(request.messages), completion_tokens=0)
-        tokens, cost = prompt.prompt_tokens or 0, self._cost_of(prompt) or 0.0
+        tokens, cost = _tokens(prompt) or 0, self._cost_of(prompt) or 0.0
+        budget = self._budget
         with self._lock:
-            self._check("--max-calls", self._budget.max_calls, self._calls, 1, "calls")
-            self._check("--max-tokens", self._budget.max_tokens, self._tokens, tokens, "tokens")
-            self._check("--max-cost", self._budget.max_cost, self._cost, cost, "US dollars")
-            self._calls += 1
-            self._tokens += tokens
-            self._cost += cost
+            ledger = self._ledger
+            self._check("--max-calls", budget.max_calls, ledger.calls, 1, "calls")
+            self._check("--max-tokens", budget.max_tokens, ledger.tokens, tokens, "tokens")
+            self._check("--max-cost", budget.max_cost, ledger.cost, cost, "US dollars")
+            self._add(1, tokens, cost, Spent())
         return prompt
 
     def settle(self, charged: Usage, completion: Completion) -> Completion:
-        """After a call: put the true figures in place of the estimate, and the cost into the completion."""
+        """After a call: put the true figures in place of the estimate, and the cost into the completion.
+
+        If that is more than the budget allows, the answer says so among its notes.
+        """
+        completion = completion.model_copy(update={"cost": self._cost_of(completion.usage, completion)})
         prompt = charged.prompt_tokens or 0
         counted = completion.usage if _tokens(completion.usage) else _estimate(prompt, completion)
-        cost = self._cost_of(counted, completion)
+        cost = self._cost_of(counted, completion) or 0.0
         with self._lock:
-            self._tokens += (_tokens(counted) or 0) - prompt
-            self._cost += (cost or 0.0) - (self._cost_of(charged) or 0.0)
-        known = self._cost_of(completion.usage, completion)
-        return completion.model_copy(update={"cost": known})
+            more = (_tokens(counted) or 0) - prompt, cost - (self._cost_of(charged) or 0.0)
+            self._add(0, *more, spent_on(completion, 1))
+            over = self._over()
+            self._record(self._ledger)
+        return completion.model_copy(update={"notes": (*completion.notes, *over)})
+
+    def release(self, charged: Usage, error: LLMError) -> None:
+        """After a call that failed: give back the estimate, unless the provider may have worked on it."""
+        kept = error.fault in ("timeout", "broken")
+        unknown = Spent(calls=1, prompt_tokens=None, completion_tokens=None, cost=None)
+        with self._lock:
+            if not kept:
+                self._add(0, -(_tokens(charged) or 0), -(self._cost_of(charged) or 0.0), Spent(calls=1))
+            else:
+                self._add(0, 0, 0.0, unknown)
+            self._record(self._ledger)
+
+    def _add(self, calls: int, tokens: int, cost: float, spent: Spent) -> None:
+        ledger = self._ledger
+        self._ledger = Ledger(
+            calls=ledger.calls + calls,
+            tokens=ledger.tokens + tokens,
+            cost=ledger.cost + cost,
+            spent=ledger.spent.plus(spent),
+        )
+
+    def _over(self) -> list[str]:
+        """What is spent beyond the budget, in words."""
+        budget, ledger = self._budget, self._ledger
+        limits = (
+            ("--max-tokens", budget.max_tokens, ledger.tokens, "tokens"),
+            ("--max-cost", budget.max_cost, ledger.cost, "US dollars"),
+        )
+        return [
+            f"budget: {_number(spent)} {unit} are spent, more than {option} {_number(limit)}; no call follows"
+            for option, limit, spent, unit in limits
+            if limit is not None and spent > limit
+        ]
 
     def _cost_of(self, usage: Usage, completion: Completion | None = None) -> float | None:
         """US dollars: what the provider says, else by the price; None if neither is known."""

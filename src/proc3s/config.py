@@ -63,7 +63,7 @@ def files() -> tuple[Path, Path]:
 
 def _configured() -> Iterator[ChosenLLM]:
     for path in files():
-        if path.is_file():
+        if path.exists():
             config = _read(path)
             yield ChosenLLM(config.llm, {k: _text(v) for k, v in config.llm_options.items()}, str(path))
 

@@ -141,12 +141,14 @@ def ask_llm(llm: LLM, question: Question, emit: Emit) -> Propose:
         emit(PromptRendered(round=round_, sha256=digest(messages), messages=messages))
         request = question.request(round_, messages)
         proposals: list[Proposal] = []
-        for completion in ask_all(
-            llm, request, question.jobs, lambda text: emit(Warned(round=round_, text=text))
-        ):
-            emit(AnswerReceived(round=round_, candidate=len(proposals), completion=completion))
-            proposals += proposals_of(completion, round_, len(proposals))
-        return proposals
+
+        def warn(text: str) -> None:
+            emit(Warned(round=round_, text=text))
+
+        for number, completion in ask_all(llm, request, question.jobs, warn):
+            emit(AnswerReceived(round=round_, candidate=number, completion=completion))
+            proposals += proposals_of(completion, round_, number)
+        return sorted(proposals, key=lambda proposal: proposal.candidate)
 
     return propose
 

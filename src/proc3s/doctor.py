@@ -88,7 +88,10 @@ def _startup_files() -> Iterator[Finding]:
 
 
 def _runs_code(path: Path) -> bool:
-    lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
+    try:
+        lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
+    except OSError:
+        return False  # Python cannot read it either
     return any(line.startswith(("import ", "import\t")) for line in lines)
 
 
@@ -109,6 +112,7 @@ def _llms(registry: Registry, llm: ChosenLLM) -> Iterator[Finding]:
     chosen: Chosen | None = None
     try:
         chosen = find_llm(registry, llm.name, llm.options)
+        chosen.make()
         yield Finding(level="ok", subject="llm", text=f"{llm.name} ({llm.by})")
     except Proc3sError as error:
         yield Finding(level="error", subject="llm", text=f"{llm.name} ({llm.by}): {error}")

@@ -7,11 +7,15 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import ClassVar, Literal
 
+Stopped = Literal["usage", "llm", "budget", "pending", "interrupted"]
+
 
 class Proc3sError(Exception):
     """Something a person can mend. The message says what was wrong, where, and what to do."""
 
     exit_code: ClassVar[int] = 2
+    stopped: ClassVar[Stopped] = "usage"
+    """What ended a run, in a word."""
 
 
 class UsageError(Proc3sError):
@@ -46,6 +50,7 @@ class LLMError(Proc3sError):
     """
 
     exit_code: ClassVar[int] = 3
+    stopped: ClassVar[Stopped] = "llm"
 
     def __init__(self, message: str, fault: Fault = "other", retry_after: float | None = None) -> None:
         super().__init__(message)
@@ -57,18 +62,21 @@ class BudgetSpent(Proc3sError):
     """What may be spent on language models is spent; the run ends with what it has (exit code 1)."""
 
     exit_code: ClassVar[int] = 1
+    stopped: ClassVar[Stopped] = "budget"
 
 
 class Pending(Proc3sError):
     """An answer is to be given by a person later; the run can be continued then (exit code 4)."""
 
     exit_code: ClassVar[int] = 4
+    stopped: ClassVar[Stopped] = "pending"
 
 
 class Interrupted(Proc3sError):
     """Ctrl-C (exit code 130)."""
 
     exit_code: ClassVar[int] = 130
+    stopped: ClassVar[Stopped] = "interrupted"
 
 
 @dataclass(frozen=True)

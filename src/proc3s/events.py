@@ -7,6 +7,7 @@ from typing import Any, Literal, TypeAlias
 from pydantic import BaseModel, ConfigDict
 
 from proc3s.audit import Findings
+from proc3s.budget import Ledger
 from proc3s.feedback import Diagnosis
 from proc3s.llms import Completion, Message
 from proc3s.problem import Trial
@@ -42,7 +43,7 @@ class RunStarted(Event):
 
 
 class RunResumed(Event):
-    """A run goes on in another process: what is changed in its options, and with which versions."""
+    """A run goes on in another process, with these options and versions."""
 
     event: Literal["run_resumed"] = "run_resumed"
     options: dict[str, Any]
@@ -66,6 +67,13 @@ class CallFailed(Event):
     fault: str
     message: str
     wait: float
+
+
+class Charged(Event):
+    """A live call was made: what all of them cost up to here, be their answers used or not."""
+
+    event: Literal["charged"] = "charged"
+    ledger: Ledger
 
 
 class Warned(Event):

@@ -5,13 +5,14 @@ import json
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Literal
+from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
 Source = Literal["live", "recorded", "authored", "manual", "none"]
 Role = Literal["system", "user", "assistant"]
 Kind = Literal["system", "example", "task", "reply", "feedback"]
+Count = Annotated[int, Field(ge=0)]
 Effort = Literal["minimal", "low", "medium", "high"]
 
 
@@ -64,9 +65,9 @@ class Request(_Data):
 class Usage(_Data):
     """Tokens of a call as the provider counted them; None is unknown, never 0."""
 
-    prompt_tokens: int | None = None
-    completion_tokens: int | None = None
-    cached_tokens: int | None = None
+    prompt_tokens: Count | None = None
+    completion_tokens: Count | None = None
+    cached_tokens: Count | None = None
     """Tokens of the prompt that the provider had in its cache."""
 
 

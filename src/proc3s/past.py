@@ -1,12 +1,13 @@
 """What a run folder says of the rounds that were done, so that a run can go on in another process."""
 
 import itertools
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 from uuid import uuid4
 
+from proc3s.budget import Ledger
 from proc3s.clock import STAGES, Clock
 from proc3s.conversation import Proposal, proposals_of
 from proc3s.errors import UsageError
@@ -38,6 +39,9 @@ class Past:
     """Names the run."""
     rounds: tuple[Round, ...] = ()
     answers: tuple[Answer, ...] = ()
+    ledger: Ledger = field(default_factory=Ledger)
+    """What live calls cost."""
+    versions: Mapping[str, str] = field(default_factory=dict)
     wall: dict[str, float] | None = None
     cpu: dict[str, float] | None = None
 
@@ -54,8 +58,11 @@ def past_of(run: Path) -> Past:
         raise UsageError(f"{run} came to its end (summary.json); there is nothing to go on with")
     answers = answers_of(events)
     done = [event for event in events if event["event"] == "round_ended"]
+    charged = [event["ledger"] for event in events if event["event"] == "charged"]
     return Past(
-        id=started(run)["id"],
+        id=started(run).get("id") or Past().id,
+        ledger=Ledger.model_validate(charged[-1]) if charged else Ledger(),
+        versions=started(run)["versions"],
         rounds=tuple(_round(events, answers, number) for number in range(len(done))),
         answers=answers,
         wall=done[-1]["seconds"] if done else None,
@@ -109,7 +116,6 @@ class Remembering(LLM):
         self._llm = llm
         self._known = {(a.round, a.candidate, a.sha256): a.completion for a in answers}
         self.live = llm.live
-        self.price = llm.price
 
     def complete(self, request: Request) -> Completion:
         """The answer of then, else one of now."""

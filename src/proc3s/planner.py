@@ -91,7 +91,7 @@ class Run:
     def _ended(self, latest: Round) -> RoundEnded:
         return RoundEnded(
             round=len(self._rounds) - 1,
-            candidate=latest.best,
+            candidate=latest.attempts[latest.best].candidate,
             diagnosis=latest.attempts[latest.best].diagnosis,
             seconds=dict(self._clock.wall),
             cpu_seconds=dict(self._clock.cpu),

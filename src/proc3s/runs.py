@@ -157,6 +157,15 @@ def events_of(run: Path, name: str) -> list[dict[str, Any]]:
     return [event for event in read_events(run) if event["event"] == name]
 
 
+def options_of(run: Path) -> Mapping[str, Any]:
+    """The options of a run, as those who resumed it have changed them. Raises UsageError."""
+    begun = [e for e in read_events(run) if e["event"] in ("run_started", "run_resumed")]
+    if not begun:
+        raise UsageError(f"{run} was cut off before it began")
+    options: Mapping[str, Any] = begun[-1]["options"]
+    return options
+
+
 def started(run: Path) -> Mapping[str, Any]:
     """The first event of a run: options, versions. Raises UsageError if it was cut off before."""
     first = events_of(run, "run_started")

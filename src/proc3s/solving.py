@@ -120,3 +120,8 @@ def race(searches: Sequence[Search], budget: int) -> None:
         left = budget
         alive = sorted((s for s in running if not s.over), key=lambda search: -search.progress)
         running = alive[: math.ceil(len(alive) / 2)]
+    while budget > 0 and (left_out := [search for search in searches if not search.over]):
+        best = max(left_out, key=lambda search: search.progress)
+        begun = len(best.trials)
+        best.advance(budget)
+        budget -= len(best.trials) - begun

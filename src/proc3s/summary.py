@@ -1,16 +1,14 @@
 """The summary of a run: one flat document for people and programs."""
 
 from collections import Counter
-from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, Literal
 
 from pydantic import BaseModel
 
-from proc3s.budget import Spent, total
+from proc3s.budget import Spent
 from proc3s.feedback import Diagnosis, Failure
 from proc3s.grounding import Setup
-from proc3s.llms import Completion
 from proc3s.options import RunOptions
 from proc3s.planner import Outcome
 
@@ -48,6 +46,8 @@ class Summary(BaseModel):
     usage: Spent = Spent()
     """What the answers cost, recorded ones when they were recorded; unknown sums are null."""
     run_dir: str | None = None
+    stopped: Literal["usage", "llm", "budget", "pending", "interrupted"] | None = None
+    """Why the run did not come to its end, in a word; `error` says it in a sentence."""
     error: str | None = None
 
 
@@ -56,7 +56,7 @@ def summarize(
     setup: Setup,
     outcome: Outcome,
     run_dir: Path | None,
-    answers: Iterable[Completion] = (),
+    usage: Spent,
 ) -> Summary:
     """The summary of an outcome. With no plan executed, the violations are those of the last round."""
     execution = outcome.execution
@@ -84,10 +84,11 @@ def summarize(
         cpu_seconds=_seconds(outcome.clock.cpu, cpu),
         plan=[action.to_json() for action in execution.plan] if execution else None,
         nearest=None if execution and execution.executed == "solution" else _nearest(outcome),
-        usage=total(answers),
+        usage=usage,
         violations=_violations(outcome, last),
         program_errors=[_program_error(f) for f in (*last.program_errors, *last.failures) if f.step is None],
         run_dir=str(run_dir) if run_dir else None,
+        stopped=outcome.error.stopped if outcome.error else None,
         error=str(outcome.error) if outcome.error else None,
     )
 

@@ -23,6 +23,8 @@ class Talker(LLM):
             file.write(request.model_dump_json() + "\n")
         calls = len(self._asked.read_text().splitlines())
         entry = json.loads(self._script.read_text())[calls - 1]
+        if isinstance(entry, dict) and "wrong" in entry:
+            return entry["wrong"]
         if not isinstance(entry, dict):
             entry = {"texts": [entry] if isinstance(entry, str) else entry}
         time.sleep(entry.pop("seconds", 0))

@@ -106,3 +106,34 @@ def test_the_summary_says_what_was_spent(cli, script, texts):
     assert (usage["calls"], usage["prompt_tokens"], usage["completion_tokens"]) == (2, 2000, 1000)
     assert usage["cost"] == 0.75
     assert usage["latency"] > 0
+
+
+def test_a_call_that_cost_more_than_was_left_is_said(cli, script, texts):
+    args = script(priced(texts.star, 90_000, 10_000))
+    result = cli("run", "drawing/star", *args, "--max-tokens", 50_000)
+    assert result.code == 0  # what is paid for is used
+    assert "budget: 100,000 tokens are spent, more than --max-tokens 50,000" in result.stderr
+
+
+def test_what_ended_a_run_is_a_word(cli, script, texts):
+    args = script(texts.outside, texts.star)
+    result = cli("run", "drawing/star", *args, "--samples", 20, "--max-calls", 1, "--json")
+    assert result.json["stopped"] == "budget"
+
+
+def test_unknown_usage_is_not_forgotten(cli, script, texts, asked):
+    """What was estimated before a resume counts after it too."""
+    args = script(texts.outside, texts.outside, texts.star)
+    price = ("-L", "prompt_price=10", "-L", "completion_price=10")
+    flags = ("--samples", 20, "--max-cost", 0.02, "--out", "r")
+    assert cli("run", "drawing/star", *args, *price, *flags).code == 1
+    calls = len(asked())
+    again = cli("run", "--resume", "r", "--json")
+    assert (again.json["stopped"], len(asked())) == ("budget", calls)
+
+
+def test_refused_connections_cost_nothing(cli, script, texts, asked):
+    fault = {"fault": "connection", "message": "no", "retry_after": 0.01}
+    args = script(fault, fault, fault, texts.star)
+    assert cli("run", "drawing/star", *args, "--max-tokens", 3000).code == 0
+    assert len(asked()) == 4

@@ -87,7 +87,7 @@ def test_an_answer_that_is_cut_twice_is_never_run(cli, script, texts, here):
     args = script(cut(texts.star), cut(texts.star))
     result = cli("run", "drawing/star", *args, "-L", "max_tokens=100", "--out", "r", "--json")
     assert result.code == 3
-    assert "cut off at 200 tokens" in result.json["error"]
+    assert "cut off" in result.json["error"]
     assert "max_tokens" in result.json["error"]
     assert not list((here / "r").glob("program-*"))
 
@@ -107,7 +107,7 @@ def test_an_answer_that_a_filter_held_back(cli, script):
 
 def test_what_a_backend_raises_unasked_names_its_line(cli, script):
     result = cli("run", "drawing/star", *script({"nonsense": 1}), "--json")
-    assert result.code == 2
+    assert result.code == 3
     assert "talker.py:" in result.json["error"]
     assert "KeyError" in result.json["error"]
 
@@ -132,3 +132,41 @@ def test_a_conversation_that_was_shortened_can_be_replayed(cli, script, texts):
     live = cli("run", "drawing/star", *script(*entries), *args, "--out", "live")
     again = cli("run", "drawing/star", "--llm", "replay:live", *args)
     assert (again.code, again.json["plan"]) == (0, live.json["plan"])
+
+
+def test_a_cut_answer_is_paid_for_and_said(cli, script, texts, events, here):
+    usage = {"prompt_tokens": 1000, "completion_tokens": 2000}
+    first = cut(texts.star, usage=usage, cost=0.5)
+    second = {"texts": [texts.star], "usage": usage, "cost": 0.25}
+    result = cli("run", "drawing/star", *script(first, second), "--out", "r")
+    assert "the answer was cut off after 2,000 tokens" in result.stderr
+    usage = events(here / "r", "run_ended")[0]["summary"]["usage"]
+    assert (usage["calls"], usage["cost"], usage["completion_tokens"]) == (2, 0.75, 4000)
+
+
+@pytest.mark.parametrize("entry", [{"wrong": "a text"}, {"wrong": None}])
+def test_nonsense_from_a_backend_is_said(cli, script, entry):
+    result = cli("run", "drawing/star", *script(entry), "--json")
+    assert result.code == 3
+    assert "no Completion" in result.json["error"]
+
+
+def test_a_negative_wait_is_none(cli, script, texts):
+    assert cli("run", "drawing/star", *script(fault("server", retry_after=-5), texts.star)).code == 0
+
+
+def test_a_backend_that_cannot_be_made(cli, here):
+    (here / "broken.py").write_text(
+        "from proc3s import LLM, LLMSpec, hookimpl\n"
+        "class Broken(LLM):\n"
+        "    def __init__(self, path, options):\n"
+        "        raise RuntimeError('no such thing')\n"
+        "    def complete(self, request):\n"
+        "        return None\n"
+        "@hookimpl\n"
+        "def register_llms(register):\n"
+        "    register(LLMSpec(name='broken', summary='', usage='', target='broken:Broken'))\n"
+    )
+    result = cli("run", "drawing/star", "--llm", "broken:x", "--plugin", "broken.py", "--json")
+    assert result.code == 2
+    assert "broken.py:4" in result.json["error"]

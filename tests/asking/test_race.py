@@ -99,3 +99,20 @@ def test_a_search_in_pieces_is_the_same_search(pieces):
     for piece in pieces:
         search.advance(piece)
     assert len(search.trials) == 100
+
+
+class GivesUp(Uniform):
+    """Asks a hundred samples and no more."""
+
+    asked = 0
+
+    def ask(self, limit):
+        self.asked += min(limit, 7)
+        return np.zeros((min(limit, 7) if self.asked <= 105 else 0, 1))
+
+
+def test_when_the_leaders_give_up_the_others_go_on():
+    leaders = [Search(SPACE, GivesUp(), Steps(9)) for _ in range(2)]
+    entrants = [*leaders, *searches(Steps(1), Steps(2))]
+    race(entrants, 1000)
+    assert sum(len(search.trials) for search in entrants) == 1000

@@ -57,7 +57,7 @@ def test_a_run_that_was_cut_off_anywhere(cli, script, texts, here, kept):
     plan = json.loads((here / "r/plan.json").read_text())
     lines = (here / "r/events.jsonl").read_text().splitlines(keepends=True)
     (here / "r/events.jsonl").write_text("".join(lines[:kept]))
-    (here / "script.asked").write_text("" if kept < 3 else "{}\n")
+    (here / "script.asked").write_text("" if kept < 4 else "{}\n")
     result = cli("run", "--resume", "r", "--json")
     assert (result.code, result.json["plan"]) == (0, plan)
 
@@ -143,3 +143,72 @@ def test_a_picture_of_the_past_in_the_prompt(cli, script, texts):
     assert shown.code == 0, shown.stderr
     assert texts.outside.strip() in shown.stdout
     assert texts.hopeless.strip() not in shown.stdout
+
+
+def test_options_of_one_llm_do_not_go_to_another(cli, script, stub, texts, here):
+    """An address, and with it a key, is meant for the model that it was given with."""
+    (here / "desk").mkdir()
+    assert cli("run", "drawing/star", "--llm", "manual:desk", "-L", "wait=0", "--out", "r").code == 4
+    result = cli("run", "--resume", "r", "--llm", stub(texts.star), "--json")
+    assert (result.code, result.json["llm_source"]) == (0, "authored")
+
+
+def test_budgets_are_changed_one_by_one(cli, script, texts, asked):
+    price = ("-L", "prompt_price=1", "-L", "completion_price=1")
+    args = script(
+        *[{"texts": [texts.outside], "usage": {"prompt_tokens": 500_000, "completion_tokens": 0}}] * 5
+    )
+    flags = ("--samples", 20, "--max-calls", 1, "--max-cost", 1, "--out", "r")
+    assert cli("run", "drawing/star", *args, *price, *flags).code == 1
+    result = cli("run", "--resume", "r", "--max-calls", 5, "--json")
+    assert (result.json["stopped"], len(asked())) == ("budget", 1 + 1)
+    assert "--max-cost" in result.json["error"]
+
+
+def test_what_was_changed_stays_changed(cli, script, texts, asked):
+    args = script(*[texts.outside] * 3, texts.star)
+    assert cli("run", "drawing/star", *args, "--samples", 60, "--max-calls", 1, "--out", "r").code == 1
+    assert cli("run", "--resume", "r", "--max-calls", 2).code == 1
+    result = cli("run", "--resume", "r", "--json")
+    assert "2 of 2 calls" in result.json["error"]
+
+
+def test_candidates_that_came_are_kept_when_it_is_killed(
+    background, cli, eventually, script, texts, here, events
+):
+    """Answers are logged as they come, whichever is slow."""
+    slow = {"texts": [texts.hopeless], "seconds": 30}
+    args = script([texts.hopeless], slow, texts.outside, texts.star, texts.star)
+    flags = ("--candidates", 4, "--llm-jobs", 3, "--samples", 60, "--out", "r")
+    with background("run", "drawing/star", *args, *flags) as process:
+        eventually(
+            lambda: (here / "r/events.jsonl").is_file() and len(events(here / "r", "answer_received")) == 3
+        )
+        process.send_signal(signal.SIGKILL)
+        process.wait(10)
+    numbers = sorted(e["candidate"] for e in events(here / "r", "answer_received"))
+    assert len(numbers) == len(set(numbers)) == 3
+
+
+def test_control_c_makes_no_further_calls(background, eventually, script, texts, asked):
+    slow = [{"texts": [texts.hopeless], "seconds": 3}] * 5
+    with background("run", "drawing/star", *script(*slow), "--candidates", 5, "--out", "r") as process:
+        eventually(lambda: len(asked()) == 2)
+        process.send_signal(signal.SIGINT)
+        process.wait(2.5)
+    assert process.returncode == 130
+    assert len(asked()) == 2
+
+
+def test_a_log_with_options_that_nobody_knows(cli, script, here):
+    cli("run", "drawing/star", *script(FAULT), "--out", "r")
+    log = (here / "r/events.jsonl").read_text()
+    (here / "r/events.jsonl").write_text(log.replace('"options": {', '"options": {"zz": 1, ', 1))
+    result = cli("run", "--resume", "r", "--json")
+    assert (result.code, "zz" in result.json["error"]) == (2, True)
+
+
+def test_replay_takes_the_best_of_several_programs(cli, script, texts):
+    args = script([texts.outside, "no program"])
+    cli("run", "drawing/star", *args, "--candidates", 2, "--feedback", 0, "--samples", 20, "--out", "r")
+    assert cli("replay", "r", "--json").json["samples"] == 20

@@ -1,19 +1,21 @@
 """One run from the command line: options to parts, parts to a run folder, a console and a summary."""
 
+import functools
 import threading
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import typer
 
 from proc3s.backends import find_llm, patient
+from proc3s.budget import Ledger, Spent, spent_on
 from proc3s.cli.console import Console
 from proc3s.config import choose_llm
 from proc3s.conversation import Propose, Question, ask_llm, given_program
 from proc3s.errors import LLMError, Proc3sError, UsageError
-from proc3s.events import AnswerReceived, CallFailed, Event, RunEnded, RunResumed, RunStarted
+from proc3s.events import AnswerReceived, CallFailed, Charged, Event, RunEnded, RunResumed, RunStarted
 from proc3s.llms import Request, Source
 from proc3s.options import (
     RunOptions,
@@ -26,11 +28,13 @@ from proc3s.past import Past, Remembering, past_of
 from proc3s.planner import Outcome, plan
 from proc3s.recordings import Recorder
 from proc3s.registry import open_registry
-from proc3s.runs import RunFolder, events_of, new_folder, started, versions
+from proc3s.runs import RunFolder, events_of, new_folder, options_of, versions
 from proc3s.specfile import validate
 from proc3s.summary import Summary, summarize
 
 _OPTION_LISTS = ("domain_options", "method_options", "solver_options", "llm_options", "limits")
+_MAY_CHANGE = {"llm", "llm_options", "llm_jobs", "jobs", "executor", "record", "budget"}
+"""What another process may do otherwise, and still go on with the same run."""
 _LIMITS = ("max_cost", "max_tokens", "max_calls")
 
 
@@ -85,13 +89,12 @@ class Given:
 
 @dataclass(frozen=True)
 class Job:
-    """A run that was asked for; one that goes on has a past, and may have changed options."""
+    """A run that was asked for; one that goes on has a past."""
 
     options: RunOptions
     out: Path | None = None
     given: Given | None = None
     past: Past | None = None
-    changes: dict[str, Any] = field(default_factory=dict)
 
 
 def run_task(job: Callable[[], Job], as_json: bool) -> None:
@@ -114,46 +117,55 @@ def replay_run(run: Path, changes: dict[str, Any], out: Path | None, as_json: bo
     """Search the last program of a run again, with the random draws of its round."""
 
     def job() -> Job:
-        options = {**started(run)["options"], **_plain(changes)}
+        options = {**options_of(run), **_plain(changes)}
         return Job(validate(RunOptions, options, str(run)), out, _program_of(run))
 
     run_task(job, as_json)
 
 
 def _program_of(run: Path) -> Given:
-    programs = events_of(run, "program_extracted")
+    """The program whose plan was executed; else that of the last round which came furthest."""
+    programs = {(e["round"], e["candidate"]): e["source"] for e in events_of(run, "program_extracted")}
     if not programs:
         raise UsageError(f"{run} has no program to replay")
+    wanted = [(e["round"], e["candidate"]) for e in events_of(run, "plan_executed")]
+    wanted += [(e["round"], e["candidate"]) for e in reversed(events_of(run, "round_ended"))]
+    round_, candidate = next((place for place in wanted if place in programs), list(programs)[-1])
     sources = {e["round"]: e["completion"]["source"] for e in events_of(run, "answer_received")}
-    executed = [(event["round"], event["candidate"]) for event in events_of(run, "plan_executed")]
-    last = next((p for p in programs if (p["round"], p["candidate"]) in executed), programs[-1])
-    origin = sources.get(last["round"], "none")
-    return Given(last["source"], "recorded" if origin == "live" else origin, last["round"], last["candidate"])
+    origin = sources.get(round_, "none")
+    source = programs[round_, candidate]
+    return Given(source, "recorded" if origin == "live" else origin, round_, candidate)
 
 
 def resume_run(run: Path, task: str | None, given: dict[str, Any], as_json: bool) -> None:
     """Go on with a run that was broken off, from its last completed step."""
 
     def job() -> Job:
-        logged = RunOptions.model_validate(started(run)["options"])
+        logged = validate(RunOptions, options_of(run), str(run))
         if task not in (None, logged.task):
             raise UsageError(f"{run} is a run of {logged.task}, not of {task}")
         if logged.llm is None:
             raise UsageError(f"{run} asked no LLM, so there is nothing to go on with; repeat its command")
-        changes = _plain(given)
-        if fixed := sorted(
-            set(changes) - {"llm", "llm_options", "llm_jobs", "jobs", "executor", "record", "budget"}
-        ):
-            raise UsageError(
-                f"a run that goes on keeps its {fixed[0].replace('_', ' ')}; leave that option out"
-            )
-        if "llm" not in changes and "llm_options" in changes:
-            changes["llm_options"] = {**logged.llm_options, **changes["llm_options"]}
-        options = validate(RunOptions, {**logged.model_dump(), **changes}, "options")
-        options = with_llm(options) if "llm" in changes else options
-        return Job(options, run, past=past_of(run), changes=changes)
+        past = past_of(run)
+        if past.versions != versions():
+            typer.echo("proc3s: other versions are installed than when the run began", err=True)
+        return Job(_resumed(logged, _plain(given)), run, past=past)
 
     run_task(job, as_json)
+
+
+def _resumed(logged: RunOptions, changes: dict[str, Any]) -> RunOptions:
+    """The options of a run that goes on. Raises UsageError for a change that would make it another run."""
+    if fixed := sorted(set(changes) - _MAY_CHANGE):
+        raise UsageError(f"a run that goes on keeps its {fixed[0].replace('_', ' ')}; leave that option out")
+    if "budget" in changes:
+        changes["budget"] = {**logged.budget.model_dump(), **changes["budget"]}
+    if "llm" in changes:
+        changes.setdefault("llm_options", {})  # those of the other LLM are not meant for this one
+    elif "llm_options" in changes:
+        changes["llm_options"] = {**logged.llm_options, **changes["llm_options"]}
+    options = validate(RunOptions, {**logged.model_dump(), **changes}, "options")
+    return with_llm(options) if "llm" in changes else options
 
 
 class Session:
@@ -170,7 +182,8 @@ class Session:
         self._problem = make_problem(self._registry, self._options, goal_needed=job.given is None)
         self._setup = make_setup(self._registry, self._options, self._problem)
         self._past = job.past or Past()
-        self._answers = {(a.round, a.candidate, a.completion): None for a in self._past.answers}
+        self._ledger = self._past.ledger
+        self._recorded = {(a.round, a.candidate): a.completion for a in self._past.answers}
         self._emitting = threading.Lock()
         self._ask = self._asker() if job.given is None else None
         self._console = Console(self._options, self._problem.samples, quiet)
@@ -185,8 +198,7 @@ class Session:
             self._emit(self._begun())
             with self._console:
                 outcome = plan(setup, self._propose(), self._emit, self._past.rounds, self._past.clock())
-            answers = [completion for _, _, completion in self._answers]
-            summary = summarize(options, setup, outcome, path, answers)
+            summary = summarize(options, setup, outcome, path, self._spent())
             self._emit(RunEnded(summary=summary.model_dump(mode="json")))
         finally:
             self._folder.close()
@@ -198,7 +210,8 @@ class Session:
 
     def _begun(self) -> Event:
         if self._job.past is not None:
-            return RunResumed(options=self._job.changes, versions=versions())
+            options = self._options.model_dump(mode="json")
+            return RunResumed(options=options, versions=versions())
         return RunStarted(
             id=self._past.id,
             options=self._options.model_dump(mode="json"),
@@ -218,8 +231,7 @@ class Session:
             options.llm_jobs,
         )
         question.prompter.rehearse(self._problem)
-        spent = [answer.completion for answer in self._past.answers if answer.completion.source == "live"]
-        llm = patient(chosen, chosen.make(), options.budget, spent, self._call_failed)
+        llm = patient(chosen, options.budget, self._past.ledger, self._charged, self._call_failed)
         if options.record is not None:
             llm = Recorder(llm, options.record, self._past.id)
         return lambda: ask_llm(Remembering(llm, self._past.answers), question, self._emit)
@@ -234,9 +246,19 @@ class Session:
     def _call_failed(self, request: Request, error: LLMError, wait: float) -> None:
         self._emit(CallFailed(round=request.round, fault=error.fault, message=str(error), wait=wait))
 
+    def _charged(self, ledger: Ledger) -> None:
+        self._ledger = ledger
+        self._emit(Charged(ledger=ledger))
+
+    def _spent(self) -> Spent:
+        """What live answers cost now, and recorded ones when they were recorded."""
+        recorded = [c for c in self._recorded.values() if c.source == "recorded"]
+        then = (spent_on(completion, completion.attempts) for completion in recorded)
+        return functools.reduce(Spent.plus, then, self._ledger.spent)
+
     def _emit(self, event: Event) -> None:
         if isinstance(event, AnswerReceived):
-            self._answers[event.round, event.candidate, event.completion] = None
+            self._recorded[event.round, event.candidate] = event.completion
         with self._emitting:  # calls in flight have news of their own
             self._folder.emit(event)
             self._console.update(event)
@@ -248,7 +270,8 @@ def _exit_code(outcome: Outcome, summary: Summary, resumable: bool) -> int:
     if outcome.error is None:
         return 0 if summary.solved else 1
     text = str(outcome.error)
-    if resumable and outcome.error.exit_code != 2:
+    gone = isinstance(outcome.error, LLMError) and outcome.error.fault == "no_answer"
+    if resumable and outcome.error.exit_code != 2 and not gone:
         text += f"\n  go on with: proc3s run --resume {summary.run_dir}"
     typer.echo(f"proc3s: {text}", err=True)
     return 0 if summary.solved else outcome.error.exit_code
