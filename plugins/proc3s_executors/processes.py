@@ -107,9 +107,9 @@ class Processes:
         try:
             with without_secrets():  # this may start processes
                 return self._workers().submit(_evaluate, key, chunk)
-        except BrokenProcessPool as error:
+        except (BrokenProcessPool, OSError) as error:  # OSError: the pool is about to notice a dead worker
             broken: Future[Answer] = Future()
-            broken.set_exception(error)
+            broken.set_exception(BrokenProcessPool(str(error)))
             return broken
 
     def _workers(self) -> ProcessPoolExecutor:

@@ -14,7 +14,8 @@ import pluggy
 
 from proc3s import hookspecs
 from proc3s.errors import Proc3sError, SpecError, UsageError, did_you_mean
-from proc3s.specs import Spec
+from proc3s.specfile import load_domain
+from proc3s.specs import DomainSpec, Spec
 
 GROUP = "proc3s"
 LOOSE_FILE = "proc3s_plugins.py"
@@ -51,7 +52,11 @@ class PluginManager:
         loose = Path.cwd() / LOOSE_FILE
         found = [*([loose] if loose.is_file() else []), *files]
         for path in {path.resolve(): path for path in found}.values():
-            self._load(PluginStatus(path.stem, str(path)), partial(import_loose_file, path))
+            name = path.parent.name if path.stem == "domain" else path.stem
+            load: Callable[[Path], object] = (
+                DomainFile if path.suffix in (".yaml", ".yml") else import_loose_file
+            )
+            self._load(PluginStatus(name, str(path)), partial(load, path))
 
     def _load(self, status: PluginStatus, load: Callable[[], Any]) -> None:
         if status.name in self.statuses:
@@ -140,6 +145,20 @@ class PluginManager:
                 self._fail(self.statuses[implementation.plugin_name], error)
             else:
                 yield answer
+
+
+class DomainFile:
+    """A plugin that is a `domain.yaml` and no Python: a domain whose skills other plugins bring."""
+
+    def __init__(self, path: Path) -> None:
+        if not path.is_file():
+            raise UsageError(f"there is no file {path}")
+        self._path = path
+
+    @hookspecs.hookimpl
+    def register_domains(self, register: Callable[[DomainSpec], None]) -> None:
+        """The domain that the file describes."""
+        register(load_domain(self._path))
 
 
 def _checked(spec: Any, hook: str) -> Spec:

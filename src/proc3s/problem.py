@@ -73,6 +73,15 @@ class Prefix:
     margins: tuple[Mapping[str, float], ...]
 
 
+@dataclass(frozen=True)
+class Failed:
+    """The first steps of a plan of which the last violates something; it will do so in every such plan."""
+
+    violations: tuple[Violation, ...]
+    state: State
+    margins: tuple[Mapping[str, float], ...]
+
+
 class Prefixes:
     """The prefixes used last in one world and from one initial state, at most `size` of them.
 
@@ -82,6 +91,7 @@ class Prefixes:
     def __init__(self, size: int) -> None:
         self._size = size
         self._known: OrderedDict[tuple[Prefix | None, Action], Prefix] = OrderedDict()
+        self._failed: OrderedDict[tuple[Prefix | None, Action], Failed] = OrderedDict()
 
     def longest(self, plan: Plan) -> Prefix | None:
         """The longest known beginning of a plan, but never the whole plan."""
@@ -100,6 +110,17 @@ class Prefixes:
             self._known[before, action] = prefix
             if len(self._known) > self._size:
                 self._known.popitem(last=False)
+
+    def failure(self, before: Prefix | None, action: Action) -> Failed | None:
+        """What is known to come of an action after a prefix, if that is a violation."""
+        return self._failed.get((before, action))
+
+    def keep_failure(self, before: Prefix | None, action: Action, failed: Failed) -> None:
+        """Remember what came of an action; the failure that was found first goes."""
+        if self._size:
+            self._failed[before, action] = failed
+            if len(self._failed) > self._size:
+                self._failed.popitem(last=False)
 
 
 @dataclass(frozen=True)
@@ -165,6 +186,8 @@ def carry_out(
     else:
         world.resume(known.snapshot)
         state, margins = known.state, list(known.margins)
+    if stop and (failed := prefixes.failure(known, plan[len(margins)])):
+        return Trial(plan, failed.violations, len(margins), failed.margins), failed.state
     violations: list[Violation] = []
     reached = len(plan)
     for step in range(len(margins), len(plan)):
@@ -176,6 +199,7 @@ def carry_out(
         if found:
             reached = min(reached, step)
             if stop:
+                prefixes.keep_failure(known, plan[step], Failed(tuple(found), state, tuple(margins)))
                 break
         elif not violations:
             longer = Prefix(world.snapshot, state, tuple(margins))

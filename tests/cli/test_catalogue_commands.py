@@ -3,6 +3,7 @@ import json
 import pytest
 
 TASKS = {f"drawing/{t}" for t in ("star", "arrow", "letters", "enclosed", "free")}
+TASKS |= {f"blocks/{t}" for t in ("pyramid", "line", "packing", "unstack")}
 
 
 def test_help_names_every_command(cli):
@@ -71,7 +72,7 @@ def test_one_kind(cli, kind):
         ("manual", ["wait", "manual:DIR"]),
         ("litellm", ["temperature", "PROVIDER/MODEL"]),
         ("draw_line", ["p1_x", "straight line"]),
-        ("collision", ["line touches {obstacle}"]),
+        ("drawing/collision", ["line touches {obstacle}"]),
         ("ContinuousSampler", ["uniformly", "min"]),
         ("paper", ["budget"]),
         ("serial", ["process"]),

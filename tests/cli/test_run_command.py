@@ -27,6 +27,7 @@ KEYS = [
     "nearest",
     "usage",
     "run_dir",
+    "stopped",
     "error",
 ]
 METHODS = ["proc3s", "proc3s-nf", "cap", "cap-gaussian", "llm3", "llm3-nf", "llm3-gaussian"]

@@ -56,7 +56,8 @@ TemplateDir: TypeAlias = Annotated[
     Path | None, typer.Option("--template-dir", help="folder of templates that go before all others")
 ]
 Plugins: TypeAlias = Annotated[
-    list[Path] | None, typer.Option("--plugin", help="a plugin in a loose Python file (repeatable)")
+    list[Path] | None,
+    typer.Option("--plugin", help="a plugin in a loose file, Python or a domain.yaml (repeatable)"),
 ]
 DomainOptions: TypeAlias = Annotated[
     list[str] | None, typer.Option("-D", metavar="KEY=VALUE", help="argument of the task's scene")

@@ -68,8 +68,6 @@ def print_spec(name: str, plugins: Sequence[Path], as_json: bool) -> None:
 
 
 def _find(registry: Registry, name: str) -> Spec:
-    if "/" in name and name.split("/")[0] in registry.all(DomainSpec):
-        return registry.task(name)[1]
     known: dict[str, Spec] = {}
     for cls in KINDS.values():
         for spec_name, spec in registry.all(cls).items():

@@ -1,0 +1,211 @@
+"""The constraints of the table-top: what the world measured in an action, as margins with words.
+
+All margins are metres. Sentences name what is involved and leave numbers to the margins, so that the same
+failure reads the same in every sample.
+"""
+
+import math
+from collections.abc import Iterator
+from typing import Any, TypeAlias
+
+from proc3s import Margin, Transition
+from proc3s_tabletop.recipe import Recipe
+from proc3s_tabletop.scene import TABLE
+from proc3s_tabletop.telemetry import Displacement, Telemetry
+
+Step: TypeAlias = Transition[Telemetry]
+
+RECIPE = Recipe()
+LEVER = 0.04
+"""A turn in rad times this is the way of a point at the far side of an object, m."""
+PAD_WIDTH = 0.018
+"""What the grid of rays between the pads spans, m: turns its share that is met into a distance."""
+UNMEASURED = 1e-3
+"""By how much a rule is broken where nothing says by how much, m."""
+
+COLLISIONS = {
+    "approach": "on its way to the grasp",
+    "close": "while it closes",
+    "carry": "on its way",
+    "descent": "on its way down to set the object down",
+    "release": "while it opens and leaves",
+}
+"""The stages that end in contact, and what was going on."""
+
+
+def kinematic(step: Step) -> Margin | None:
+    """How much nearer to its line the grasp point keeps than it must; negative is the miss."""
+    residual = step.telemetry.ik_residual
+    if residual is None:
+        return None
+    return Margin(RECIPE.ik_tolerance - residual)
+
+
+def collision(step: Step, highest: float) -> Margin | None:
+    """The smallest clearance of robot and held object, negative in contact.
+
+    What is set down must not meet a support more than `highest` above the commanded z either.
+    """
+    measured = step.telemetry
+    found = [*_contact(step), *_met_too_early(step, highest), *_squeezed(step)]
+    if found:
+        return min(found, key=lambda margin: margin.value)
+    if measured.ended and measured.clearance is None:
+        return None
+    return Margin(max(0.0, measured.clearance.distance) if measured.clearance else RECIPE.near)
+
+
+def grasp(step: Step) -> Margin | None:
+    """How far a pick is from losing its object, by what lies between the pads and by its slip; negative if
+    nothing was grasped, or it slipped."""
+    measured = step.telemetry
+    if step.action.skill != "pick" or (measured.ended and not _is_bad_grasp(step)):
+        return None
+    if measured.ended:
+        return Margin(-_lack(step), {"why": _why_no_grasp(step)})
+    if measured.held is None:
+        return Margin(-UNMEASURED, {"why": "the hand comes up empty"})
+    why = f"{thing(step, measured.held)} slips in the fingers"
+    return Margin(min(_spare(measured)), {"why": why})
+
+
+def _spare(measured: Telemetry) -> Iterator[float]:
+    """How much of what was measured could be lost without losing the object."""
+    yield RECIPE.max_slip - (measured.slip or 0.0)
+    yield (RECIPE.max_slip_angle - (measured.slip_angle or 0.0)) * LEVER
+    if measured.cover is not None:
+        yield (measured.cover - RECIPE.min_cover) * PAD_WIDTH
+
+
+def placement(step: Step, moved: float, turned: float, lowest: float) -> Margin | None:
+    """How far everything not in hand is from having moved too far (m, rad) and from leaving the table, and
+    how much higher the support was met than `lowest` below the commanded z; all negative when violated."""
+    measured = step.telemetry
+    if step.action.skill == "place" and measured.target is None and measured.ended in (None, "hand"):
+        return Margin(-UNMEASURED, {"why": "there is nothing in the hand to set down"})
+    if measured.ended and measured.ended != "support":
+        return None
+    height = measured.support_height
+    found = [_bounds(step)]
+    if height is not None:
+        found.append(Margin(lowest + height, {"why": _too_high(step)}))
+    if measured.at_rest is False:
+        found.append(Margin(-UNMEASURED, {"why": "the objects do not come to rest"}))
+    found += [_stays(step, d, moved, turned) for d in measured.displacements or ()]
+    least = min(margin.value for margin in found)
+    return Margin(least, {"why": ", and ".join(m.details["why"] for m in found if m.value < 0)})
+
+
+def thing(step: Step, name: str) -> str:
+    """A body for people: `object_3 (the red block)`, `the table`, `the gripper`."""
+    objects: Any = getattr(step.before, "objects", {})
+    if name not in objects:
+        return f"the {name}"
+    return f"{name} (the {f'{objects[name].color} {objects[name].category}'.strip()})"
+
+
+def _contact(step: Step) -> Iterator[Margin]:
+    """The contact that ended the action, unless it is the fault of the grasp."""
+    measured = step.telemetry
+    if measured.ended not in COLLISIONS or measured.clearance is None or _is_bad_grasp(step):
+        return
+    body, other = measured.clearance.body, measured.clearance.other
+    carried = " in the hand" if body == measured.target else ""
+    details = {"body": thing(step, body) + carried, "other": thing(step, other)}
+    details["when"] = COLLISIONS[measured.ended]
+    yield Margin(min(measured.clearance.distance, -RECIPE.touch), details)
+
+
+def _squeezed(step: Step) -> Iterator[Margin]:
+    """A contact in an action that came to its end: where the arm yields, that does not stop it."""
+    clearance = step.telemetry.clearance
+    if not step.telemetry.ended and clearance and clearance.distance < -RECIPE.penetration:
+        details = {"body": thing(step, clearance.body), "other": thing(step, clearance.other)}
+        yield Margin(clearance.distance, {**details, "when": "where the fingers close or open"})
+
+
+def _met_too_early(step: Step, highest: float) -> Iterator[Margin]:
+    """A support well above the commanded z: a stack that nobody asked for."""
+    height, support = step.telemetry.support_height, step.telemetry.support
+    if height is not None and support is not None and height > highest:
+        held = thing(step, str(step.telemetry.target))
+        details = {"body": f"{held} in the hand", "other": thing(step, support)}
+        yield Margin(highest - height, {**details, "when": "far above the z where it should be set down"})
+
+
+def _is_bad_grasp(step: Step) -> bool:
+    """Whether a pick ended because of how it grasps, and not because of what is in the way."""
+    measured = step.telemetry
+    if step.action.skill != "pick":
+        return False
+    if measured.ended == "approach" and measured.clearance:
+        return measured.clearance.other == _nearest(step)[0]
+    slipped = measured.ended == "close" and measured.grip_force is not None
+    return slipped or measured.ended in ("hand", "grasp", "lift")
+
+
+def _why_no_grasp(step: Step) -> str:
+    measured = step.telemetry
+    nearest = _nearest(step)[0]
+    if measured.ended == "hand":
+        return f"the hand already holds {thing(step, str(measured.held))}"
+    if measured.ended == "grasp" and not measured.cover:
+        hint = f"; the nearest object is {thing(step, nearest)}" if nearest else ""
+        return f"nothing is between the fingers{hint}"
+    if measured.ended == "approach":
+        return f"the fingers come down on {thing(step, str(nearest))} instead of around it"
+    what = thing(step, str(measured.target))
+    if measured.ended == "grasp":
+        return f"the fingers get too little of {what} between them"
+    if measured.ended == "close":
+        return f"the fingers do not hold {what} from both sides"
+    return f"{what} slips out of the fingers"
+
+
+def _lack(step: Step) -> float:
+    """By how much a grasp failed, as far as the stage at which it did measured that."""
+    measured = step.telemetry
+    if measured.ended == "grasp" and measured.cover:
+        return max(UNMEASURED, (RECIPE.min_cover - measured.cover) * PAD_WIDTH)
+    if measured.ended == "grasp":
+        return max(RECIPE.min_cover * PAD_WIDTH, _nearest(step)[1])
+    if measured.ended == "lift":
+        return max(RECIPE.touch, -min(_spare(measured)))
+    if measured.ended == "approach" and measured.clearance:
+        return max(RECIPE.touch, -measured.clearance.distance)
+    return UNMEASURED
+
+
+def _nearest(step: Step) -> tuple[str | None, float]:
+    """The object whose centre is nearest to the commanded point, and its distance, m."""
+    point = [float(value) for value in step.action.args]  # type: ignore[arg-type]
+    objects: Any = getattr(step.before, "objects", {})
+    found = {name: math.dist(point, (o.pose.x, o.pose.y, o.pose.z)) for name, o in objects.items()}
+    name = min(found, key=lambda n: found[n], default=None)
+    return name, found[name] if name else PAD_WIDTH
+
+
+def _bounds(step: Step) -> Margin:
+    bound = step.telemetry.bounds
+    if bound is None:
+        return Margin(RECIPE.near, {"why": ""})
+    what = "the commanded point" if bound.name == "target" else thing(step, bound.name)
+    return Margin(bound.distance, {"why": f"{what} lies outside the bounds of the table"})
+
+
+def _too_high(step: Step) -> str:
+    measured = step.telemetry
+    below = thing(step, measured.support or TABLE)
+    return f"{thing(step, str(measured.target))} would be dropped from high above {below}"
+
+
+def _stays(step: Step, d: Displacement, moved: float, turned: float) -> Margin:
+    """How much less than allowed an object moved."""
+    what, released = thing(step, d.name), d.name == step.telemetry.target
+    if released:
+        what += " does not stay where it is released"
+    elif d.name in (step.telemetry.knocked_over or ()):
+        what += " is knocked over"
+    else:
+        what += " is moved along"
+    return Margin(min(moved - d.shift, (turned - d.turned) * LEVER), {"why": what})

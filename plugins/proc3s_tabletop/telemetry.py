@@ -1,0 +1,128 @@
+"""What the table-top world measures while it carries out an action."""
+
+import math
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+Stage: TypeAlias = Literal[
+    "hand", "reach", "approach", "grasp", "close", "lift", "carry", "descent", "support", "release"
+]
+"""Where an action can end early.
+
+hand: it was full before a pick, or empty before a place; reach: no joint angles along the way; approach: the
+open hand touched something on its way to a grasp; grasp: too little between the fingers; close: a finger
+touched something else, or not both held the object; lift: the object slipped in the shaken hand; carry: arm,
+hand or held object touched something on the way; descent: something other than the support was in the way of
+a place; support: nothing to stand on within reach below; release: the opening or leaving hand touched
+something.
+"""
+
+
+@dataclass(frozen=True)
+class Clearance:
+    """The distance of two bodies in m, negative where they penetrate; `body` is of the robot or its load."""
+
+    distance: float
+    body: str
+    other: str
+
+
+@dataclass(frozen=True)
+class Displacement:
+    """How far an object moved: metres level and upright, and radians turned in all and leaning over."""
+
+    name: str
+    level: float
+    upright: float
+    turned: float
+    leaned: float
+
+    @property
+    def shift(self) -> float:
+        """The larger of the two distances, metres."""
+        return max(self.level, self.upright)
+
+
+@dataclass(frozen=True)
+class Bound:
+    """How far a centre lies inside the bounds of the table, metres; negative outside.
+
+    `name` is an object, or "target" for the commanded point.
+    """
+
+    distance: float
+    name: str
+
+
+@dataclass(frozen=True)
+class Telemetry:
+    """What one pick or place measured: metres, radians, names of objects; None where it never came to that.
+
+    The world judges nothing: constraints do. `ended` is the stage at which the action ended early; the world
+    then stands as it did before the action.
+    """
+
+    ended: Stage | None = None
+    target: str | None = None
+    """The object the action is about: found between the fingers, or in hand at the start of a place."""
+    held: str | None = None
+    """What the hand holds when the action is over."""
+    ik_residual: float | None = None
+    """Largest distance of the grasp point from its line on the way; if out of reach, the miss."""
+    clearance: Clearance | None = None
+    """The smallest clearance at grasp, set-down and opening; where the action ended in contact, that."""
+    cover: float | None = None
+    """Share of a grid of rays between the pads that meet the target, 0 to 1."""
+    finger_gap: float | None = None
+    """Distance of the closed pads."""
+    grip_force: float | None = None
+    """Normal force of the pad that presses less, newtons."""
+    slip: float | None = None
+    slip_angle: float | None = None
+    """How far the target moved and turned in the hand while it was shaken."""
+    support: str | None = None
+    """What the held object was set down on."""
+    support_height: float | None = None
+    """Where the support was met above the commanded z; negative is the drop below it."""
+    displacements: tuple[Displacement, ...] | None = None
+    """Every object that is not in hand, against its pose before the fingers moved, once all is at rest.
+
+    What was released counts from the end of its free drop.
+    """
+    knocked_over: tuple[str, ...] | None = None
+    """The other objects that lean over."""
+    at_rest: bool | None = None
+    """Whether everything came to rest within the time given to it."""
+    bounds: Bound | None = None
+    """The least distance inside the table of the target and of every object that is not in hand."""
+
+    def displacement(self, name: str) -> Displacement | None:
+        """The displacement of one object, if it was measured."""
+        return next((d for d in self.displacements or () if d.name == name), None)
+
+
+def least(clearances: "list[Clearance | None]") -> Clearance | None:
+    """The smallest of the clearances that exist; ties go to the first."""
+    return min((c for c in clearances if c), key=lambda c: c.distance, default=None)
+
+
+Vector: TypeAlias = tuple[float, float, float]
+Quaternion: TypeAlias = tuple[float, float, float, float]
+
+
+def displacement(
+    name: str, before: tuple[Vector, Quaternion], after: tuple[Vector, Quaternion], drop: float = 0.0
+) -> Displacement:
+    """Compare two poses (position in metres, quaternion x, y, z, w); `drop` is the fall that was expected."""
+    (p0, q0), (p1, q1) = before, after
+    level = math.hypot(p1[0] - p0[0], p1[1] - p0[1])
+    cosine = abs(sum(a * b for a, b in zip(q0, q1, strict=True)))
+    up0, up1 = _up(q0), _up(q1)
+    lean = math.acos(max(-1.0, min(1.0, sum(a * b for a, b in zip(up0, up1, strict=True)))))
+    return Displacement(name, level, abs(p1[2] - p0[2] + drop), 2 * math.acos(min(1.0, cosine)), lean)
+
+
+def _up(q: Quaternion) -> Vector:
+    """The third axis of a rotation."""
+    x, y, z, w = q
+    return 2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)

@@ -1,0 +1,118 @@
+"""Table-tops as proc3s knows worlds, and their two skills."""
+
+import dataclasses
+from abc import abstractmethod
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from proc3s import Plan, SpecError, State, World
+from proc3s.errors import Issue
+from proc3s_tabletop import poses
+from proc3s_tabletop.bodies import Body
+from proc3s_tabletop.body_specs import bodies_of
+from proc3s_tabletop.reference import Reference
+from proc3s_tabletop.scene import Frame, Snapshot
+from proc3s_tabletop.table import Table
+from proc3s_tabletop.telemetry import Telemetry
+
+if TYPE_CHECKING:
+    from proc3s import Domain
+
+
+class TabletopWorld(World[Telemetry]):
+    """Picks and places among the `objects` of a state: name -> something with `category` and `pose`.
+
+    `bodies` says which body a category has (see `body_specs`); block and bowl where it is not given. The
+    simulator starts with the first state, and again when a state has other objects.
+    """
+
+    def __init__(self, domain: "Domain", bodies: Mapping[str, Any] | None = None) -> None:
+        super().__init__(domain)
+        self.categories = bodies_of(bodies, domain.spec.folder if bodies else None)
+        self._bodies: dict[str, Body] = {}
+        self._table: Table | None = None
+        self._film: list[Snapshot] = []
+
+    @abstractmethod
+    def make_table(self, bodies: Mapping[str, Body], frames: Mapping[str, Frame]) -> Table:
+        """A simulated table with these bodies on it."""
+
+    @property
+    def table(self) -> Table:
+        """The simulated table; there is one once a state has been placed."""
+        if self._table is None:
+            raise RuntimeError("reset the world to a state first")
+        return self._table
+
+    def place(self, state: State) -> None:
+        """Put a body where every object is, the hand empty and above. Raises SpecError on a strange one."""
+        super().place(state)
+        objects: dict[str, Any] = self.state.objects
+        bodies = {name: self._body(name, thing.category) for name, thing in objects.items()}
+        frames = {name: poses.frame(thing.pose) for name, thing in objects.items()}
+        if self._table is None or bodies != self._bodies:
+            self.close()
+            self._table, self._bodies = self.make_table(bodies, frames), bodies
+        self._table.put(frames)
+        self._film = []
+
+    def _body(self, name: str, category: str) -> Body:
+        if category not in self.categories:
+            known = ", ".join(sorted(self.categories))
+            raise SpecError([Issue(name, "category", f"no body for {category!r}; there are {known}")])
+        return self.categories[category]
+
+    def observe(self) -> State:
+        """The state of the last reset, with every object that moved where it is now."""
+        objects = dict(self.state.objects)
+        start = {name: poses.frame(thing.pose) for name, thing in objects.items()}
+        for name, frame in self.table.snapshot.frames:
+            if frame != start[name]:
+                thing = objects[name]
+                pose = dataclasses.replace(thing.pose, **poses.numbers(frame))
+                objects[name] = dataclasses.replace(thing, pose=pose)
+        state: State = dataclasses.replace(self.state, objects=objects)
+        return state
+
+    def save(self) -> Snapshot:
+        """Everything that later steps depend on, as plain data; kept for the pictures, too."""
+        self._film.append(self.table.snapshot)
+        return self.table.snapshot
+
+    def load(self, snapshot: Snapshot) -> None:
+        """Go on from a snapshot; every action begins by putting the simulator into it."""
+        if not self._film or self._film[-1] is not snapshot:
+            self._film = [snapshot]
+        self.table.snapshot = snapshot
+
+    def render(self, plan: Plan, path: Path) -> None:
+        """Draw the world after a plan, and at `path` with `-step0`, `-step1`, ... where each step led."""
+        from proc3s_tabletop.pictures import draw
+
+        colors = {name: getattr(thing, "color", "") for name, thing in self.state.objects.items()}
+        draw(self._bodies, colors, self._film, path)
+
+    def close(self) -> None:
+        """Give up the simulator."""
+        if self._table:
+            self._table.close()
+            self._table = None
+
+
+class ReferenceWorld(TabletopWorld):
+    """The world that accepts plans."""
+
+    def make_table(self, bodies: Mapping[str, Body], frames: Mapping[str, Frame]) -> Table:
+        """A table whose arm is kinematic."""
+        return Reference(bodies, frames)
+
+
+def pick(world: TabletopWorld, x: float, y: float, z: float) -> Telemetry:
+    """The skill: grasp from above at a point in metres, and lift."""
+    return world.table.pick(x, y, z)
+
+
+def place(world: TabletopWorld, x: float, y: float, z: float) -> Telemetry:
+    """The skill: set down what is held over a point in metres, and let go."""
+    return world.table.place(x, y, z)
