@@ -192,3 +192,12 @@ def test_the_bundled_program_solves_every_seed(task, seed, run):
 def test_the_bundled_plans_of_seed_0_reach_the_goal(task, method, run):
     summary = run(task, 0, "--method", method)
     assert (summary["solved"], summary["goal_reached"]) == (True, True), summary
+
+
+@pytest.mark.slow
+def test_one_and_four_workers_find_the_same(cli):
+    sketch = BLOCKS.spec.folder / "bench/packing.open.py"
+    flags = ("--sketch", sketch, "--samples", 24, "--solver", "rejection", "--no-check-goal", "--json")
+    alone, together = (cli("solve", "blocks/packing", *flags, "--jobs", jobs).json for jobs in (1, 4))
+    same = ("solved", "plan", "samples", "evaluations", "violations", "nearest")
+    assert [together[key] for key in same] == [alone[key] for key in same]

@@ -100,6 +100,6 @@ def test_snapshots_cross_processes_as_they_are(expected):
 
 
 def test_spawned_processes_give_the_same(expected):
-    with multiprocessing.get_context("spawn").Pool(2) as pool:
+    with multiprocessing.get_context("spawn").Pool(4) as pool:
         for result in pool.map(fresh, [PLAN, PLAN[:4], PLAN[:2], PLAN], chunksize=1):
             assert result == expected[: len(result)]
