@@ -98,7 +98,7 @@ def test_a_provider_that_is_not_there_is_exit_code_3(shell, here):
         env={"OPENAI_API_KEY": "sk-planted"},
     )
     assert result.code == 3
-    assert result.json["error"].startswith("openai/nothing: ")
+    assert result.json["error"].startswith("openai/nothing at http://127.0.0.1:9/v1: nobody answers")
     assert len(result.json["error"].splitlines()) == 1
     assert "Traceback" not in result.stderr
     for path in (here / result.json["run_dir"]).rglob("*"):

