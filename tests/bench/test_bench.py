@@ -25,7 +25,12 @@ def test_every_drawing_task_has_two_programs():
     assert case("drawing/star.crowd").scene["count"] == "100"
 
 
-@pytest.mark.parametrize("label", [c.label for c in CASES])
+def _marked(label):
+    """In a simulator a search takes seconds."""
+    return pytest.param(label, marks=[] if label.startswith("drawing/") else [pytest.mark.slow])
+
+
+@pytest.mark.parametrize("label", [_marked(c.label) for c in CASES])
 def test_every_program_can_be_searched(label):
     with Bench(REGISTRY, [Way("saving", "rejection")], samples=64) as bench:
         plain, saving = bench.search(case(label), 0)

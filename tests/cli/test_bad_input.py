@@ -58,7 +58,7 @@ def said(result):
         (["render-prompt", "nope", "--check", "d"], ["nope"]),
         (["list", "metods"], ["metods", "did you mean 'methods'?"]),
         (["show", "drawin"], ["drawin", "did you mean 'drawing'?"]),
-        (["show", "drawing/stra"], ["stra", "did you mean 'star'?"]),
+        (["show", "drawing/stra"], ["stra", "did you mean 'drawing/star'?"]),
         (["schema", "domian"], ["domian", "did you mean 'domain'?"]),
     ],
 )

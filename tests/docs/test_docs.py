@@ -6,6 +6,7 @@ import shlex
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -69,7 +70,15 @@ def check_console(body: str, expected_exit: int, folder: Path) -> None:
         assert re.fullmatch(as_pattern(expected), output), f"{command}\nprinted\n{output}"
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+SLOW = ("llm", "reading-a-failure", "table-top", "table-top-task")
+"""Pages whose examples import litellm or simulate an arm, again and again."""
+
+
+def _marked(page: Path) -> Any:
+    return pytest.param(page, marks=[pytest.mark.slow] if page.stem in SLOW else [], id=page.stem)
+
+
+@pytest.mark.parametrize("page", [_marked(page) for page in PAGES])
 def test_every_example_of_a_page_runs(page: Path, tmp_path: Path, model: Provider) -> None:
     ran = 0
     text = page.read_text(encoding="utf-8").replace(LOCAL, model.root.removeprefix("http://"))

@@ -284,8 +284,9 @@ def test_what_is_there_instead_is_named(tmp_path, change, hint):
     assert hint in told
     asked = request(**change)
     assert f"{asked.task}, method {asked.method}, seed {asked.seed}, round {asked.round}" in told
+    many = f"--candidates {asked.candidate + 1} " if asked.candidate else ""
     assert told.split("\n")[-1].strip() == (
-        f"proc3s run {asked.task} --method {asked.method} --seed {asked.seed} --llm openai/gpt-x "
+        f"proc3s run {asked.task} --method {asked.method} --seed {asked.seed} {many}--llm openai/gpt-x "
         f"--record {tmp_path / 'c.jsonl'}"
     )
 

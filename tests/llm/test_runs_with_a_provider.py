@@ -9,7 +9,8 @@ import pytest
 
 from provider import CLOSES, CUTS, HANGS, refuses, says, sends
 
-pytestmark = pytest.mark.xdist_group("litellm")  # its import takes seconds
+# The import of litellm takes seconds, in every process anew.
+pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("litellm")]
 
 ANSWERS = Path(__file__).parents[2] / "domains/proc3s_drawing/answers"
 STAR = (ANSWERS / "star.proc3s.md").read_text().split("---\n")[2]
