@@ -88,7 +88,13 @@ def background(here):
     @contextmanager
     def start(*args):
         process = subprocess.Popen(
-            _command(args), cwd=here, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+            _command(args),
+            cwd=here,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            # A shell's background job, and so maybe this one, is started deaf to Ctrl-C.
+            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
         )
         try:
             yield process
