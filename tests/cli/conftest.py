@@ -2,21 +2,8 @@
 
 import pytest
 
-STAR = """
-Some words.
+from sample_answers import STAR
 
-```python
-def gen_plan(initial, x, y, radius):
-    def corner(k):
-        angle = math.pi / 2 + 4 * math.pi * k / 5
-        return [x + radius * math.cos(angle), y + radius * math.sin(angle)]
-    return [Action("draw_line", corner(k) + corner(k + 1)) for k in range(5)]
-
-def gen_domain(initial):
-    where = ContinuousSampler(10, 90)
-    return {"x": where, "y": where, "radius": ContinuousSampler(8, 20)}
-```
-"""
 OUTSIDE = """
 ```python
 def gen_plan(initial, x):
