@@ -90,6 +90,12 @@ class Bowl:
         floor = [_around(turn, self.foot_radius, z) for turn in turns[:-1] for z in (low, high)]
         return [*wall, np.array(floor)]
 
+    def height_at(self, radius: FloatArray) -> FloatArray:
+        """How high above its foot the bowl reaches at distances from its axis, metres."""
+        share = (radius - self.foot_radius) / (self.rim_radius - self.foot_radius)
+        height: FloatArray = np.maximum(np.clip(share, 0.0, 1.0) * self.height, self.wall)
+        return height
+
     def _rib(self, turn: float) -> FloatArray:
         """The wall cut at an angle: outside and inside, at the foot and at the rim."""
         # The wall hangs a little above the table: only the floor is to stand on it.

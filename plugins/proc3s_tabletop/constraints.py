@@ -5,13 +5,13 @@ failure reads the same in every sample.
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any, TypeAlias
 
 from proc3s import Margin, Transition
 from proc3s_tabletop.recipe import Recipe
-from proc3s_tabletop.scene import TABLE
 from proc3s_tabletop.telemetry import Displacement, Telemetry
+from proc3s_tabletop.things import TABLE
 
 Step: TypeAlias = Transition[Telemetry]
 
@@ -98,7 +98,11 @@ def placement(step: Step, moved: float, turned: float, lowest: float) -> Margin 
 
 def thing(step: Step, name: str) -> str:
     """A body for people: `object_3 (the red block)`, `the table`, `the gripper`."""
-    objects: Any = getattr(step.before, "objects", {})
+    return called(getattr(step.before, "objects", {}), name)
+
+
+def called(objects: Mapping[str, Any], name: str) -> str:
+    """The same, of the objects of a state."""
     if name not in objects:
         return f"the {name}"
     return f"{name} (the {f'{objects[name].color} {objects[name].category}'.strip()})"

@@ -3,8 +3,8 @@
 from collections.abc import Iterable
 from typing import Any, NamedTuple
 
-from proc3s_tabletop.scene import Scene
 from proc3s_tabletop.telemetry import Clearance, Vector, least
+from proc3s_tabletop.things import Things
 
 # Where PyBullet's contact points have what.
 BODY_B, LINK_A, LINK_B, NORMAL, DISTANCE, FORCE = 2, 3, 4, 7, 8, 9
@@ -20,22 +20,22 @@ class Touch(NamedTuple):
     normal: Vector
 
 
-def robot_contact(scene: Scene, gripped: str | None = None) -> Clearance | None:
+def robot_contact(scene: Things, gripped: str | None = None) -> Clearance | None:
     """The deepest contact of the robot, with itself too; the hand may touch the object it grips."""
     depth, points = -scene.recipe.penetration, scene.client.getContactPoints(scene.robot.id)
     return least([_robot_contact(scene, p, gripped) for p in points if p[DISTANCE] < depth])
 
 
-def _robot_contact(scene: Scene, point: Any, gripped: str | None) -> Clearance | None:
+def _robot_contact(scene: Things, point: Any, gripped: str | None) -> Clearance | None:
     robot, other = scene.robot, point[BODY_B]
     if other == robot.id:
         return Clearance(point[DISTANCE], robot.part(point[LINK_A]), robot.part(point[LINK_B]))
-    if scene.names[other] == gripped and point[LINK_A] in robot.hand:
+    if scene.names[other] == gripped and point[LINK_A] in robot.hand_links:
         return None
     return Clearance(point[DISTANCE], robot.part(point[LINK_A]), scene.names[other])
 
 
-def held_touches(scene: Scene, name: str) -> list[Touch]:
+def held_touches(scene: Things, name: str) -> list[Touch]:
     """What an object in hand touches, the robot apart."""
     points = scene.client.getContactPoints(scene.bodies[name])
     return [
@@ -50,13 +50,13 @@ def deepest(touches: list[Touch]) -> Clearance | None:
     return least([touch.clearance for touch in touches])
 
 
-def grip_force(scene: Scene, name: str) -> float:
+def grip_force(scene: Things, name: str) -> float:
     """Normal force of the side of the hand that presses an object less, newtons."""
     points = scene.client.getContactPoints(scene.robot.id, scene.bodies[name])
     return min(float(sum(p[FORCE] for p in points if p[LINK_A] in side)) for side in scene.robot.sides)
 
 
-def hand_clearances(scene: Scene, gripped: str | None = None) -> dict[str, Clearance]:
+def hand_clearances(scene: Things, gripped: str | None = None) -> dict[str, Clearance]:
     """The smallest distance of the robot to everything near but the gripped object, by name."""
     robot, found = scene.robot, {}
     for other, name in scene.names.items():
@@ -74,7 +74,7 @@ def hand_clearances(scene: Scene, gripped: str | None = None) -> dict[str, Clear
     return found
 
 
-def company(scene: Scene, names: Iterable[str]) -> set[str]:
+def company(scene: Things, names: Iterable[str]) -> set[str]:
     """The objects among `names`, and all that touch them, directly or through others.
 
     Boxes that only just meet have no contact points in PyBullet, so whatever is within 1 mm counts.

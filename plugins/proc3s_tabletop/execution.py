@@ -2,7 +2,6 @@
 
 import dataclasses
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -13,27 +12,19 @@ from proc3s_tabletop.contacts import grip_force, hand_clearances
 from proc3s_tabletop.motion import line_down, top_down
 from proc3s_tabletop.motors import ITERATIONS, Motors
 from proc3s_tabletop.pressing import Guard, between_pads, support
-from proc3s_tabletop.recipe import Recipe
-from proc3s_tabletop.scene import Frame, Held
 from proc3s_tabletop.settling import compare, note_bounds, settle
 from proc3s_tabletop.table import Table
 from proc3s_tabletop.telemetry import Telemetry, displacement, least
+from proc3s_tabletop.things import Frame, Held
 from proc3s_tabletop.world import TabletopWorld
-
-if TYPE_CHECKING:
-    from proc3s import Domain
 
 
 class ExecutionWorld(TabletopWorld):
-    """The world in which accepted plans are carried out; `speed` scales that of arm and fingers."""
-
-    def __init__(self, domain: "Domain", bodies: Mapping[str, Any] | None = None, speed: float = 1.0) -> None:
-        super().__init__(domain, bodies)
-        self.recipe = Recipe(speed=speed)
+    """The world in which accepted plans are carried out."""
 
     def make_table(self, bodies: Mapping[str, Body], frames: Mapping[str, Frame]) -> Table:
         """A table whose arm is driven."""
-        return Execution(bodies, frames, self.recipe)
+        return Execution(bodies, frames)
 
 
 class Execution(Table):
@@ -87,7 +78,7 @@ def pick(attempt: Attempt, grasp: FloatArray) -> None:
         _note_slip(attempt, gripped)
     lifted = between_pads(scene)
     scene.held = Held(lifted, scene.in_tool(lifted)) if lifted else None
-    settle(attempt)
+    attempt.note(at_rest=settle(scene, [*scene.loose()]))
     compare(attempt, before)
 
 
@@ -112,7 +103,7 @@ def place(attempt: Attempt, grasp: FloatArray) -> None:
     attempt.note_clearance(least([*hand_clearances(scene, name).values()]))
     motors.up(line)
     motors.fingers(0.0)
-    settle(attempt)
+    attempt.note(at_rest=settle(scene, [*scene.loose()]))
     drop = _fall(attempt, baseline, name) if name and not guard.support else 0.0
     if name:
         attempt.note(support=guard.support or support(scene, name), support_height=height - drop)

@@ -1,20 +1,23 @@
 """Picking: down, a look between the fingers, closing them, the lift test, and up."""
 
+import dataclasses
+
 import numpy as np
 
 from proc3s import FloatArray
 from proc3s_tabletop.attempt import Attempt
-from proc3s_tabletop.contacts import company, grip_force, hand_clearances, robot_contact
+from proc3s_tabletop.contacts import company, hand_clearances
 from proc3s_tabletop.motion import Line, contact, follow, line_down, put, travel
-from proc3s_tabletop.scene import Held
-from proc3s_tabletop.settling import compare, settle
-from proc3s_tabletop.telemetry import displacement, least
+from proc3s_tabletop.settling import compare, rest
+from proc3s_tabletop.telemetry import Clearance, least
+from proc3s_tabletop.things import Frame, Held
+from proc3s_tabletop.workbench import Workbench
 
 INSIDE = 0.85
 """Rays run between the pads from this share of their distance, so that they start off the pads."""
 
 
-def pick(attempt: Attempt, grasp: FloatArray) -> None:
+def pick(attempt: Attempt, grasp: FloatArray, bench: Workbench) -> None:
     """Grasp what is at a pose (4, 4) of the grasp point and lift it."""
     if attempt.scene.held:
         attempt.stop("hand")
@@ -24,15 +27,12 @@ def pick(attempt: Attempt, grasp: FloatArray) -> None:
     near = hand_clearances(attempt.scene)
     attempt.note_clearance(least([*near.values()]))
     name = between_fingers(attempt)
-    # What neither the hand nor the object can reach, even through others, is at rest: it only costs time.
-    scene = attempt.scene
+    # What neither the hand nor the object can reach, even through others, takes no part.
     touchable = [other for other, c in near.items() if c.distance < attempt.recipe.stir]
-    there = company(scene, [name, *touchable])
-    aside = scene.set_aside([other for other in scene.bodies if other not in there])
-    close(attempt, name)
-    shake(attempt, name)
-    scene.bring_back(aside)
-    lift(attempt, line, name)
+    there = company(attempt.scene, [name, *touchable])
+    others = [other for other in attempt.scene.bodies if other in there - {name}]
+    grip(attempt, bench, name, others)
+    lift(attempt, bench, line, name, others)
 
 
 def between_fingers(attempt: Attempt) -> str:
@@ -66,67 +66,34 @@ def _rays(attempt: Attempt) -> tuple[list[list[float]], list[list[float]]]:
     return [(x + half).tolist() for x in grid], [(x - half).tolist() for x in grid]
 
 
-def close(attempt: Attempt, name: str) -> None:
-    """Close the fingers until they stand still; both must press the object and nothing else be touched."""
-    scene, recipe = attempt.scene, attempt.recipe
-    scene.set_iterations(recipe.grip_iterations)
-    scene.robot.drive(recipe.finger_closed)
-    still = 0
-    for tick in range(recipe.close_most):
-        scene.tick()
-        if tick % recipe.check_every == 0:
-            _only_touching(attempt, name)
-        slow = abs(scene.robot.read_fingers()[1]) < recipe.stall_speed
-        still = still + 1 if slow and tick > recipe.close_least else 0
-        if still >= recipe.stall:
-            break
-    _only_touching(attempt, name)
-    force = grip_force(scene, name)
-    attempt.note(finger_gap=scene.robot.gap(), grip_force=force)
-    if force <= 0:
-        attempt.stop("close")
+def grip(attempt: Attempt, bench: Workbench, name: str, others: list[str]) -> None:
+    """Close the fingers on an object and shake it; what lies near enough to be touched takes part."""
+    scene, names = attempt.scene, [name, *others]
+    found = bench.grip(Frame(*scene.robot.tool()), scene.lies(names), scene.recipe.speed)
+    measured = found.telemetry
+    attempt.note(finger_gap=measured.finger_gap, grip_force=measured.grip_force)
+    attempt.note(slip=measured.slip, slip_angle=measured.slip_angle)
+    if measured.ended:
+        attempt.stop(measured.ended, _named(measured.clearance, names))
+    scene.bring_back(dict(zip(others, found.lies, strict=True)))
+    scene.robot.put_fingers(found.angle)
+    scene.held = Held(name, found.held)
 
 
-def _only_touching(attempt: Attempt, name: str) -> None:
-    found = robot_contact(attempt.scene, name)
-    if found:
-        attempt.stop("close", found)
+def _named(found: Clearance | None, names: list[str]) -> Clearance | None:
+    """A contact in a grip, with the names of this scene."""
+    if found is None or not found.other.isdigit():
+        return found
+    return dataclasses.replace(found, other=names[int(found.other)])
 
 
-def shake(attempt: Attempt, name: str) -> None:
-    """The lift test: nothing but the fingers holds the object, it is pulled about; how far does it slip?"""
-    scene, recipe = attempt.scene, attempt.recipe
-    gripped = scene.in_tool(name)
-    scene.let_collide(name, False)
-    slip = angle = 0.0
-    for pull, ticks in recipe.shake:
-        for _ in range(ticks):
-            scene.push(name, pull)
-            scene.tick()
-        moved = displacement(name, gripped, scene.in_tool(name))
-        slip, angle = max(slip, float(np.hypot(moved.level, moved.upright))), max(angle, moved.turned)
-        if slip > recipe.max_slip or angle > recipe.max_slip_angle:
-            break
-    attempt.note(slip=slip, slip_angle=angle)
-    if slip > recipe.max_slip or angle > recipe.max_slip_angle:
-        attempt.stop("lift")
-    scene.held = Held(name, scene.in_tool(name))
-    scene.set_iterations(recipe.iterations)
-    scene.let_collide(name, True)
-
-
-def lift(attempt: Attempt, line: Line, name: str) -> None:
+def lift(attempt: Attempt, bench: Workbench, line: Line, name: str, others: list[str]) -> None:
     """Back up with the object fixed to the hand, then let the others come to rest."""
-    scene, robot = attempt.scene, attempt.scene.robot
-    robot.put_fingers(robot.read_fingers()[0])
     up, heights = line.q[-2::-1], line.heights[-2::-1]
     for q, height in zip(up, heights, strict=True):
         put(attempt, q)
         _clear(attempt, name, bool(height - line.heights[-1] > attempt.recipe.lift_off))
-    scene.park(name)
-    robot.drive(robot.angle)
-    settle(attempt)
-    robot.put_fingers(robot.angle)
+    rest(attempt, bench, others)
     put(attempt, line.q[0])
     _clear(attempt, name, True)
     compare(attempt, attempt.before)

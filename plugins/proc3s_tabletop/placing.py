@@ -6,11 +6,12 @@ import numpy as np
 
 from proc3s import FloatArray
 from proc3s_tabletop.attempt import Attempt
-from proc3s_tabletop.contacts import Touch, deepest, hand_clearances, held_touches, robot_contact
+from proc3s_tabletop.contacts import Touch, company, deepest, hand_clearances, held_touches, robot_contact
 from proc3s_tabletop.motion import Line, contact, follow, line_down, put, travel
-from proc3s_tabletop.scene import Frame
-from proc3s_tabletop.settling import compare, settle
+from proc3s_tabletop.settling import compare, rest
 from proc3s_tabletop.telemetry import Clearance, least
+from proc3s_tabletop.things import Frame
+from proc3s_tabletop.workbench import Workbench
 
 
 class Obstruction(NamedTuple):
@@ -28,7 +29,7 @@ class Stand(NamedTuple):
     obstruction: Obstruction | None
 
 
-def place(attempt: Attempt, grasp: FloatArray) -> None:
+def place(attempt: Attempt, grasp: FloatArray, bench: Workbench) -> None:
     """Set the held object down at a pose (4, 4) of the grasp point and leave it."""
     scene = attempt.scene
     if not scene.held:
@@ -43,7 +44,7 @@ def place(attempt: Attempt, grasp: FloatArray) -> None:
         note_support(attempt, stand.obstruction.held, stand.height - float(grasp[2, 3]))
     else:
         drop = measure_drop(attempt, name)
-    release(attempt, line, stand, name, drop)
+    release(attempt, bench, line, stand, name, drop)
 
 
 def descend(attempt: Attempt, line: Line, name: str) -> Stand:
@@ -125,7 +126,7 @@ def _lowered(attempt: Attempt, name: str, start: Frame, drop: float) -> list[Tou
     return held_touches(attempt.scene, name)
 
 
-def release(attempt: Attempt, line: Line, stand: Stand, name: str, drop: float) -> None:
+def release(attempt: Attempt, bench: Workbench, line: Line, stand: Stand, name: str, drop: float) -> None:
     """Open no further than needed, go up, and let everything come to rest; the baseline is taken before."""
     scene, robot = attempt.scene, attempt.scene.robot
     scene.held = None
@@ -134,9 +135,8 @@ def release(attempt: Attempt, line: Line, stand: Stand, name: str, drop: float) 
     open_fingers(attempt, stand, name)
     above = line.q[line.heights > stand.height + 1e-9][::-1]
     follow(attempt, np.vstack([stand.q, above]), "release")
-    robot.drive(robot.angle)
-    scene.stop(name)
-    settle(attempt)
+    near = company(scene, [name, *scene.near(name, attempt.recipe.fall)])
+    rest(attempt, bench, [name, *(other for other in scene.bodies if other in near - {name})])
     compare(attempt, baseline, name, drop)
     robot.put_arm(line.q[0])
     robot.put_fingers(0.0)

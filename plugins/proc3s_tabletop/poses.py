@@ -3,7 +3,7 @@
 import math
 from typing import Any
 
-from proc3s_tabletop.scene import Frame
+from proc3s_tabletop.things import Frame
 
 
 def frame(pose: Any) -> Frame:

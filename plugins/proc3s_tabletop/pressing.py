@@ -25,7 +25,7 @@ class Guard:
 
     def __call__(self) -> bool:
         """Whether anything presses the hand or what it holds, each other apart."""
-        scene, hand = self._scene, self._scene.robot.hand
+        scene, hand = self._scene, self._scene.robot.hand_links
         points = [p for p in scene.client.getContactPoints(scene.robot.id) if p[LINK_A] in hand]
         force = sum(p[FORCE] for p in points if scene.names.get(p[BODY_B]) != self._held)
         loads = _presses(scene, self._held)

@@ -105,6 +105,8 @@ class Recipe:
     open_margin: float = 0.006
     """A finger opens this much further than the object is wide; wide open it pushes neighbours."""
 
+    fall: float = 0.02
+    """What is this close to an object that is let go may be hit when it falls over."""
     settle_first: int = 18
     settle_look: int = 6
     settle_most: int = 360

@@ -1,16 +1,21 @@
 """The reference: what accepts plans. It carries actions out and measures; constraints judge."""
 
 import dataclasses
-from collections.abc import Callable
+import functools
+from collections.abc import Callable, Mapping
 
 from proc3s import FloatArray
 from proc3s_tabletop.attempt import Attempt, Stopped
+from proc3s_tabletop.bodies import Body
 from proc3s_tabletop.grasping import pick
 from proc3s_tabletop.motion import top_down
 from proc3s_tabletop.placing import place
+from proc3s_tabletop.recipe import Recipe
 from proc3s_tabletop.settling import note_bounds
 from proc3s_tabletop.table import Table
 from proc3s_tabletop.telemetry import Telemetry
+from proc3s_tabletop.things import Frame
+from proc3s_tabletop.workbench import Workbench
 
 
 class Reference(Table):
@@ -19,13 +24,19 @@ class Reference(Table):
     Fingers and objects are dynamic. An action that ends early leaves the world as it was.
     """
 
+    def __init__(
+        self, bodies: Mapping[str, Body], frames: Mapping[str, Frame], recipe: Recipe | None = None
+    ) -> None:
+        super().__init__(bodies, frames, recipe)
+        self._bench = Workbench(bodies, self.scene.recipe)
+
     def pick(self, x: float, y: float, z: float) -> Telemetry:
         """Grasp and lift; ends early where that fails."""
-        return self._carry_out(pick, x, y, z)
+        return self._carry_out(functools.partial(pick, bench=self._bench), x, y, z)
 
     def place(self, x: float, y: float, z: float) -> Telemetry:
         """Set down and leave; ends early where that fails."""
-        return self._carry_out(place, x, y, z)
+        return self._carry_out(functools.partial(place, bench=self._bench), x, y, z)
 
     def _carry_out(
         self, action: Callable[[Attempt, FloatArray], None], x: float, y: float, z: float
@@ -38,7 +49,12 @@ class Reference(Table):
         except Stopped:
             note_bounds(attempt, self.snapshot, x, y)
             return attempt.telemetry
-        self.snapshot = self.scene.save()
+        self.snapshot = self.scene.save().after(self.snapshot)
         note_bounds(attempt, self.snapshot, x, y)
         held = self.snapshot.held
         return dataclasses.replace(attempt.telemetry, held=held.name if held else None)
+
+    def close(self) -> None:
+        """Give up both simulators."""
+        self._bench.close()
+        super().close()

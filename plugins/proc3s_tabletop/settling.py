@@ -1,30 +1,44 @@
 """Letting the scene come to rest, and how far everything moved."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING
 
 from proc3s_tabletop.attempt import Attempt
 from proc3s_tabletop.recipe import TABLE_BOUNDS
-from proc3s_tabletop.scene import Frame, Scene, Snapshot
+from proc3s_tabletop.scene import Snapshot
 from proc3s_tabletop.telemetry import Bound, displacement
+from proc3s_tabletop.things import Frame, Things
+
+if TYPE_CHECKING:
+    from proc3s_tabletop.workbench import Workbench
 
 
-def settle(attempt: Attempt) -> None:
-    """Let time pass until all objects are still at two looks in a row, or the time is up."""
-    recipe, scene = attempt.recipe, attempt.scene
-    scene.tick(recipe.settle_first)
-    ticks, looks = recipe.settle_first, int(still(scene))
+def settle(things: Things, names: Sequence[str]) -> bool:
+    """Let time pass until these objects are still at two looks in a row; False if the time is up before."""
+    recipe = things.recipe
+    things.tick(recipe.settle_first)
+    ticks, looks = recipe.settle_first, int(still(things, names))
     while looks < 2 and ticks < recipe.settle_most:
-        scene.tick(recipe.settle_look)
+        things.tick(recipe.settle_look)
         ticks += recipe.settle_look
-        looks = looks + 1 if still(scene) else 0
-    attempt.note(at_rest=looks == 2)
+        looks = looks + 1 if still(things, names) else 0
+    return looks == 2
 
 
-def still(scene: Scene) -> bool:
-    """Whether no object that is not in hand moves."""
-    recipe = scene.recipe
-    speeds = (scene.speeds(name) for name in scene.loose())
+def still(things: Things, names: Iterable[str]) -> bool:
+    """Whether none of these objects moves."""
+    recipe = things.recipe
+    speeds = (things.speeds(name) for name in names)
     return all(v <= recipe.still_speed and w <= recipe.still_turn for v, w in speeds)
+
+
+def rest(attempt: Attempt, bench: "Workbench", names: Sequence[str]) -> None:
+    """Let objects come to rest, if there are any; all others are at rest."""
+    scene = attempt.scene
+    found = bench.rest(scene.lies(names)) if names else None
+    if found:
+        scene.bring_back(dict(zip(names, found.frames, strict=True)))
+    attempt.note(at_rest=found is None or found.at_rest)
 
 
 def compare(

@@ -1,12 +1,14 @@
 """A table that picks and places happen on: a scene, and the snapshot that the next action starts from."""
 
+import dataclasses
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 
 from proc3s_tabletop.bodies import Body
 from proc3s_tabletop.recipe import Recipe
-from proc3s_tabletop.scene import Frame, Scene, Snapshot
+from proc3s_tabletop.scene import Scene, Snapshot
 from proc3s_tabletop.telemetry import Telemetry
+from proc3s_tabletop.things import Frame
 
 
 class Table(ABC):
@@ -24,6 +26,11 @@ class Table(ABC):
     def put(self, frames: Mapping[str, Frame]) -> None:
         """Start again, empty-handed, with every body at its frame."""
         self.snapshot = Snapshot(tuple((name, frames[name]) for name in self.scene.bodies))
+
+    def set_speed(self, speed: float) -> None:
+        """Scale the speed of arm and fingers."""
+        recipe = dataclasses.replace(self.scene.recipe, speed=speed)
+        self.scene.recipe = self.scene.robot.recipe = recipe
 
     @abstractmethod
     def pick(self, x: float, y: float, z: float) -> Telemetry:

@@ -10,17 +10,23 @@ LIGHT = ("5e-3", "1e-6")
 """Mass (kg) and moments of inertia (kg m2) of frames without any: PyBullet would give them 1 kg each."""
 
 
-def write_urdf(path: Path, visuals: bool = False) -> None:
+def write_robot(path: Path, visuals: bool = False) -> None:
     """Write the URDF of the arm with its gripper on tool0; meshes are named by absolute paths.
 
     Visual meshes are left out unless asked for: loading them takes longer than everything else.
     """
-    from airo_models import get_urdf_path  # type: ignore[import-untyped, import-not-found, unused-ignore]
+    parts = [*_parts("ur5e", ""), *_parts("robotiq_2f_85", GRIPPER_PREFIX)]
+    _write(path, [*parts, _fixed("tool0", f"{GRIPPER_PREFIX}base_link")], visuals)
 
-    robot = ET.Element("robot", name="ur5e_robotiq_2f_85")
-    robot.extend(_parts(Path(get_urdf_path("ur5e")), ""))
-    robot.extend(_parts(Path(get_urdf_path("robotiq_2f_85")), GRIPPER_PREFIX))
-    robot.append(_fixed("tool0", f"{GRIPPER_PREFIX}base_link"))
+
+def write_hand(path: Path) -> None:
+    """Write the URDF of the gripper alone; its base is where tool0 would be."""
+    _write(path, _parts("robotiq_2f_85", GRIPPER_PREFIX), visuals=False)
+
+
+def _write(path: Path, parts: list[ET.Element], visuals: bool) -> None:
+    robot = ET.Element("robot", name="robot")
+    robot.extend(parts)
     for link in robot.findall("link"):
         if not visuals:
             for visual in link.findall("visual"):
@@ -30,8 +36,11 @@ def write_urdf(path: Path, visuals: bool = False) -> None:
     ET.ElementTree(robot).write(path, encoding="utf-8")
 
 
-def _parts(path: Path, prefix: str) -> list[ET.Element]:
-    """The links and joints of a file, its links renamed, its meshes found from anywhere."""
+def _parts(model: str, prefix: str) -> list[ET.Element]:
+    """The links and joints of a model of airo-models, its links renamed, its meshes found from anywhere."""
+    from airo_models import get_urdf_path  # type: ignore[import-untyped, import-not-found, unused-ignore]
+
+    path = Path(get_urdf_path(model))
     # Attributes of another simulator stand in a namespace that the file does not declare.
     root = ET.fromstring(path.read_text(encoding="utf-8").replace("drake:", ""))
     for mesh in root.iter("mesh"):

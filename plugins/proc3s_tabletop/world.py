@@ -6,15 +6,20 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from proc3s import Plan, SpecError, State, World
 from proc3s.errors import Issue
 from proc3s_tabletop import poses
 from proc3s_tabletop.bodies import Body
 from proc3s_tabletop.body_specs import bodies_of
+from proc3s_tabletop.disturbances import Disturbance
 from proc3s_tabletop.reference import Reference
-from proc3s_tabletop.scene import Frame, Snapshot
+from proc3s_tabletop.scene import Snapshot
+from proc3s_tabletop.screening import SCREENS
 from proc3s_tabletop.table import Table
 from proc3s_tabletop.telemetry import Telemetry
+from proc3s_tabletop.things import Frame
 
 if TYPE_CHECKING:
     from proc3s import Domain
@@ -23,16 +28,28 @@ if TYPE_CHECKING:
 class TabletopWorld(World[Telemetry]):
     """Picks and places among the `objects` of a state: name -> something with `category` and `pose`.
 
-    `bodies` says which body a category has (see `body_specs`); block and bowl where it is not given. The
-    simulator starts with the first state, and again when a state has other objects.
+    `bodies` says which body a category has (see `body_specs`); block and bowl where it is not given. `speed`
+    scales that of arm and fingers. The simulator starts with the first state, and again when a state has
+    other objects.
     """
 
-    def __init__(self, domain: "Domain", bodies: Mapping[str, Any] | None = None) -> None:
+    def __init__(self, domain: "Domain", bodies: Mapping[str, Any] | None = None, speed: float = 1.0) -> None:
         super().__init__(domain)
+        self.speed = speed
         self.categories = bodies_of(bodies, domain.spec.folder if bodies else None)
         self._bodies: dict[str, Body] = {}
         self._table: Table | None = None
         self._film: list[Snapshot] = []
+        self._disturbance: Disturbance | None = None
+
+    def disturb(self, rng: np.random.Generator | None) -> None:
+        """From the next reset on, arm and fingers are a little faster or slower, and every commanded point is
+        a little off."""
+        self._disturbance = Disturbance.drawn(rng) if rng else None
+
+    def commanded(self, x: float, y: float, z: float) -> tuple[float, float, float]:
+        """The point that the arm takes for a commanded one."""
+        return self._disturbance.off(x, y, z) if self._disturbance else (x, y, z)
 
     @abstractmethod
     def make_table(self, bodies: Mapping[str, Body], frames: Mapping[str, Frame]) -> Table:
@@ -55,6 +72,7 @@ class TabletopWorld(World[Telemetry]):
             self.close()
             self._table, self._bodies = self.make_table(bodies, frames), bodies
         self._table.put(frames)
+        self._table.set_speed(self._disturbance.speed if self._disturbance else self.speed)
         self._film = []
 
     def _body(self, name: str, category: str) -> Body:
@@ -103,6 +121,8 @@ class TabletopWorld(World[Telemetry]):
 class ReferenceWorld(TabletopWorld):
     """The world that accepts plans."""
 
+    screens = SCREENS
+
     def make_table(self, bodies: Mapping[str, Body], frames: Mapping[str, Frame]) -> Table:
         """A table whose arm is kinematic."""
         return Reference(bodies, frames)
@@ -110,9 +130,9 @@ class ReferenceWorld(TabletopWorld):
 
 def pick(world: TabletopWorld, x: float, y: float, z: float) -> Telemetry:
     """The skill: grasp from above at a point in metres, and lift."""
-    return world.table.pick(x, y, z)
+    return world.table.pick(*world.commanded(x, y, z))
 
 
 def place(world: TabletopWorld, x: float, y: float, z: float) -> Telemetry:
     """The skill: set down what is held over a point in metres, and let go."""
-    return world.table.place(x, y, z)
+    return world.table.place(*world.commanded(x, y, z))

@@ -5,6 +5,7 @@ scene generator.
 """
 
 import dataclasses
+import itertools
 import multiprocessing
 import time
 from collections.abc import Iterator, Mapping, Sequence
@@ -13,6 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
+from proc3s.audit import Audit
 from proc3s.errors import UsageError, did_you_mean
 from proc3s.evaluation import Evaluator, Sketch
 from proc3s.executors import Executor
@@ -26,7 +28,11 @@ from proc3s.solving import Search
 from proc3s.specs import DomainSpec, ExecutorSpec
 
 _SCENE = "# scene:"
-_BATCH = 1024
+_BATCHES = (64, 192, 768, 1024)
+"""Samples of the batches of a throughput run; the last again and again."""
+_ENOUGH = 8.0
+"""CPU seconds after which a throughput run begins no further batch: in a simulator few plans say enough."""
+_AUDITED = 50
 STAGES = ("program", "screens", "world", "other")
 """Where CPU time goes; `other` is the solver and the bookkeeping."""
 
@@ -76,6 +82,9 @@ class Measurement:
     cpu: dict[str, float]
     wall: float
     error: str | None = None
+    audited: int = 0
+    """Rejects of the screens that were put to the world after all, and how many of them it accepts."""
+    wrong: int = 0
 
     @property
     def total(self) -> float:
@@ -150,7 +159,10 @@ class Bench:
                 yield _search(case, way, setup, opened.sketch)
 
     def throughput(self, case: Case, seed: int, samples: int) -> Iterator[Measurement]:
-        """Uniform samples in large batches, whatever is accepted among them: plain, and screened."""
+        """Uniform samples in large batches, whatever is accepted among them: plain, and screened.
+
+        Of what the screens reject a few are put to the world afterwards, which no time counts.
+        """
         with open_sketch(self._setup(case, seed, PLAIN)) as opened:
             for way in (PLAIN, Way("screened", "rejection")):
                 yield _stream(case, way, self._setup(case, seed, way), opened.sketch, samples)
@@ -205,32 +217,46 @@ def _search(case: Case, way: Way, setup: Setup, sketch: Sketch) -> Measurement:
 
 
 def _stream(case: Case, way: Way, setup: Setup, sketch: Sketch, samples: int) -> Measurement:
-    u = np.random.default_rng(setup.problem.seed).random((samples, sketch.space.dim))
-    list(Evaluator(setup.problem, sketch, setup.executor).stream(u[:64]))
-    meter = Meter(setup.problem, setup.executor, sketch)
-    accepted = 0
-    for at in range(0, samples, _BATCH):
-        accepted += sum(trial.accepted for trial in meter.evaluator.stream(u[at : at + _BATCH]))
-    return meter.read(case, way, accepted > 0, None)
+    problem, executor = setup.problem, setup.executor
+    u = np.random.default_rng(problem.seed).random((samples, sketch.space.dim))
+    list(Evaluator(problem, sketch, executor).stream(u[:64]))
+    audit = Audit(_AUDITED, problem.seed)
+    meter = Meter(problem, executor, sketch, audit)
+    at = accepted = 0
+    sizes = itertools.chain(_BATCHES, itertools.repeat(_BATCHES[-1]))
+    while at < samples and sum(meter.cpu().values()) < _ENOUGH:
+        batch = u[at : at + next(sizes)]
+        accepted += sum(trial.accepted for trial in meter.evaluator.stream(batch))
+        at += len(batch)
+    measured = meter.read(case, way, accepted > 0, None)
+    found = audit.check(problem, executor)
+    return dataclasses.replace(measured, audited=found.checked, wrong=len(found.wrong))
 
 
 class Meter:
     """An evaluator, and the time that goes by around it from now on, worker processes included."""
 
-    def __init__(self, problem: Problem, executor: Executor, sketch: Sketch) -> None:
+    def __init__(
+        self, problem: Problem, executor: Executor, sketch: Sketch, audit: Audit | None = None
+    ) -> None:
         self._seed = problem.seed
-        self.evaluator = Evaluator(problem, sketch, executor)
+        self.evaluator = Evaluator(problem, sketch, executor, audit=audit)
         self._wall, self._cpu = time.perf_counter(), time.process_time()
         self._pool, self._boxes = _cpu_of_children()
 
-    def read(self, case: Case, way: Way, solved: bool, error: str | None) -> Measurement:
-        """What was done since; the program's process counts as program, pool workers as world."""
-        wall, cpu = time.perf_counter() - self._wall, time.process_time() - self._cpu
+    def cpu(self) -> dict[str, float]:
+        """CPU seconds since then by stage; the program's process counts as program, pool workers as world."""
+        cpu = time.process_time() - self._cpu
         pool, boxes = _cpu_of_children()
         parts = dict(self.evaluator.clock.cpu)
         parts["other"] = max(cpu - sum(parts.values()), 0.0)
         parts["program"] += max(boxes - self._boxes, 0.0)
         parts["world"] += max(pool - self._pool, 0.0)
+        return {stage: parts[stage] for stage in STAGES}
+
+    def read(self, case: Case, way: Way, solved: bool, error: str | None) -> Measurement:
+        """What was done since."""
+        cpu, wall = self.cpu(), time.perf_counter() - self._wall
         evaluator = self.evaluator
         return Measurement(
             case=case.label,
@@ -240,7 +266,7 @@ class Meter:
             samples=evaluator.samples,
             evaluations=evaluator.evaluations,
             rejected_by=dict(evaluator.rejected_by),
-            cpu={stage: parts[stage] for stage in STAGES},
+            cpu=cpu,
             wall=wall,
             error=error,
         )

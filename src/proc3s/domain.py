@@ -10,7 +10,7 @@ import numpy as np
 from pydantic import TypeAdapter, ValidationError
 
 from proc3s.errors import Issue, SpecError, UsageError, blame, did_you_mean
-from proc3s.specs import DomainSpec, ParamSpec, SamplerSpec, Target, TaskSpec
+from proc3s.specs import DomainSpec, ParamSpec, SamplerSpec, ScreenSpec, Target, TaskSpec
 from proc3s.state import Parameter, Signature, State, StateModel
 
 if TYPE_CHECKING:
@@ -44,6 +44,12 @@ class Domain:
     def margins(self) -> dict[str, Callable[..., Any]]:
         """The margin function of every constraint, in the order in which they are checked."""
         return {name: spec.load() for name, spec in self.spec.constraints.items()}
+
+    @cached_property
+    def screens(self) -> tuple[ScreenSpec, ...]:
+        """The domain's own screens, then those that come with its world."""
+        world: type[World[Any]] = self.spec.world.load()
+        return (*self.spec.screens, *getattr(world, "screens", ()))
 
     def require(self, task: TaskSpec) -> None:
         """Import all that a run of a task needs. Raises SpecError with every target that is missing."""

@@ -8,6 +8,8 @@ from collections.abc import Callable, Container, Generator, Iterator, Sequence
 from contextlib import closing
 from typing import Protocol, TypeAlias
 
+import numpy as np
+
 from proc3s.audit import Audit
 from proc3s.clock import Clock
 from proc3s.constraints import Violation
@@ -39,12 +41,18 @@ class Sketch(Protocol):
 Confirm: TypeAlias = Callable[[Trial], SketchError | None]
 
 
+_FIRST = (4, 16)
+"""So many samples are grounded at first: an easy problem with a slow program does not need the others."""
+
+
 class Evaluator:
     """Takes verdicts on samples of one problem. Equal plans are rolled out once.
 
     Vectorised screens see whole batches here, before any action is made; what they pass goes to the
-    executor. `samples` counts verdicts taken, `evaluations` plans that a world was given, `rejected_by`
-    samples that a screen rejected, by its name; `audit` is offered those. `confirm` has the last word on a
+    executor. `samples` counts verdicts taken, `evaluations` plans that a world was given (and
+    `rehearsals` of those it accepted), `rejected_by`
+    samples that a screen rejected, by its name; `audit` is offered those, `review` only those of screens
+    that are not exact. `confirm` has the last word on a
     trial that the world accepts: it may return the error it becomes.
     """
 
@@ -55,24 +63,35 @@ class Evaluator:
         executor: Executor,
         confirm: Confirm = lambda trial: None,
         audit: Audit | None = None,
+        review: Audit | None = None,
     ) -> None:
         self.problem = problem
         self._sketch = sketch
         self._executor = executor
         self._confirm = confirm
-        self._audit = audit
+        self._audit, self._review = audit, review
+        self._exact = {spec.name for spec in problem.domain.screens if spec.exact}
         self._screens = [BatchScreen(spec, problem) for spec in problem.active_screens(stateful=False)]
         self._known: dict[bytes, Trial] = {}
         self.samples = 0
         self.evaluations = 0
-        self.rejected_by: Counter[str] = Counter({spec.name: 0 for spec in problem.domain.spec.screens})
+        self.rehearsals = 0
+        self.rejected_by: Counter[str] = Counter({spec.name: 0 for spec in problem.domain.screens})
         self.clock = Clock("program", "screens", "world")
+        self._first = iter(_FIRST)
 
     def stream(self, u: FloatArray) -> Iterator[Trial]:
         """The trials of the samples u, shape (n, dim), in order; closing the iterator cancels the rest.
 
         Raises SketchError after the trials that were finished if the program had to be stopped.
         """
+        at = 0
+        while at < len(u):
+            part = u[at : at + next(self._first, len(u))]
+            at += len(part)
+            yield from self._stream(part)
+
+    def _stream(self, u: FloatArray) -> Iterator[Trial]:
         batch, halted = self._plans(u)
         settled = self._settled(batch, u)
         # Actions are made when the executor takes a plan, so none are made far behind an accepted one.
@@ -99,15 +118,23 @@ class Evaluator:
                 return error.done, error
 
     def _settled(self, batch: PlanBatch, u: FloatArray) -> dict[int, Trial]:
-        """Trials of the samples that no world need see; the first screen to reject gives the reason."""
+        """Trials of the samples that no world need see; a screen sees what those before it let pass."""
         rows, first = u.tolist(), self.samples
         settled: dict[int, Trial] = {}
         with self.clock("screens"):
+            passed = np.arange(len(batch))
             for screen in self._screens:
-                for i, violation in enumerate(screen(batch)):
-                    if violation is not None and i not in settled:
-                        step, sample = violation.step, tuple(rows[i])
-                        settled[i] = Trial(None, (violation,), step, (), None, screen.name, first + i, sample)
+                verdicts = screen(batch.select(passed))
+                for i, violation in zip(passed.tolist(), verdicts, strict=True):
+                    if violation is not None:
+                        settled[i] = Trial(
+                            violations=(violation,),
+                            reached=violation.step,
+                            screen=screen.name,
+                            index=first + i,
+                            u=tuple(rows[i]),
+                        )
+                passed = passed[[violation is None for violation in verdicts]]
         for i, error in batch.errors.items():
             settled[i] = Trial(error=error, index=first + i, u=tuple(rows[i]))
         return settled
@@ -118,6 +145,7 @@ class Evaluator:
             with self.clock("world"):
                 self._known[key] = trial = next(verdicts)
             self.evaluations += trial.screen is None
+            self.rehearsals += trial.rehearsals
         return dataclasses.replace(self._known[key], index=self.samples, u=tuple(row.tolist()))
 
     def _verdicts(self, batch: PlanBatch, settled: Container[int]) -> Generator[Trial, None, None]:
@@ -136,7 +164,9 @@ class Evaluator:
         assert trial.screen
         self.rejected_by[trial.screen] += 1
         if self._audit:
-            self._audit.offer(plan, trial.violations[0])
+            self._audit.offer(plan, trial)
+        if self._review and trial.screen not in self._exact:
+            self._review.offer(plan, trial)
 
 
 def _key(batch: PlanBatch, i: int) -> bytes:

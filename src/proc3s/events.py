@@ -168,6 +168,7 @@ class AttemptEnded(OfProgram):
     diagnosis: Diagnosis
     samples: int
     evaluations: int
+    rehearsals: int = 0
     rejected_by: dict[str, int]
     fallback: list[dict[str, Any]] | None
     """The plan that is executed if no other comes."""

@@ -3,9 +3,11 @@
 import re
 from collections import Counter, defaultdict
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 from pydantic import BaseModel, ConfigDict
 
+from proc3s.constraints import Violation
 from proc3s.problem import Problem, Trial
 from proc3s.samplers import Space
 from proc3s.separation import BoundHit, Separation, bound_hits, separations
@@ -81,26 +83,37 @@ class Diagnosis(BaseModel):
         return (self.reached, max((report.best_margin for report in self.constraints), default=0.0))
 
 
+@dataclass(frozen=True)
+class _Failed:
+    """A sample that failed, standing for `weight` samples."""
+
+    trial: Trial
+    weight: float = 1.0
+
+
 def diagnose(
     trials: Sequence[Trial],
     error: SketchError | None = None,
     problem: Problem | None = None,
     space: Space | None = None,
+    reviewed: Sequence[Trial] = (),
 ) -> Diagnosis:
     """Rank the first failures of trials; `error` is what ended the program, if something did.
 
     Failures are counted as the paper does, by joint step, skill and sentence; sentences that differ in
     numbers only count as one, and ties keep plan order. `problem` and `space` name what never failed and
-    the parameters that matter.
+    the parameters that matter. `reviewed` are the world's verdicts on a uniform choice of what screens that
+    are not exact rejected: they stand for all of these.
     """
     failed = [trial for trial in trials if not trial.accepted]
-    reports = _by_constraint(failed)
+    weighed = _weighed(failed, problem, reviewed)
+    reports = _by_constraint(weighed)
     names = list(problem.domain.spec.constraints) if problem else []
     violated = {report.constraint for report in reports}
     return Diagnosis(
         samples=len(trials),
         reached=max((trial.reached for trial in trials), default=0),
-        failures=_ranked(failed, len(trials)),
+        failures=_ranked(weighed, len(trials)),
         program_errors=_program_errors(error) if error else (),
         constraints=reports,
         never_violated=tuple(name for name in names if trials and name not in violated),
@@ -109,16 +122,26 @@ def diagnose(
     )
 
 
-def _ranked(failed: Sequence[Trial], samples: int) -> tuple[Failure, ...]:
-    counts: Counter[tuple[object, ...]] = Counter()
+def _weighed(failed: Sequence[Trial], problem: Problem | None, reviewed: Sequence[Trial]) -> list[_Failed]:
+    """Failures as the world sees them: those reviewed stand for all that such screens rejected."""
+    told = [trial for trial in reviewed if not trial.accepted]
+    if problem is None or not told:
+        return [_Failed(trial) for trial in failed]
+    exact = {None} | {spec.name for spec in problem.domain.screens if spec.exact}
+    sure = [_Failed(trial) for trial in failed if trial.screen in exact]
+    return sure + [_Failed(trial, (len(failed) - len(sure)) / len(told)) for trial in told]
+
+
+def _ranked(failed: Sequence[_Failed], samples: int) -> tuple[Failure, ...]:
+    counts: defaultdict[tuple[object, ...], float] = defaultdict(float)
     firsts: dict[tuple[object, ...], Failure] = {}
-    for trial in failed:
-        failure = _first_failure(trial)
+    for one in failed:
+        failure = _first_failure(one.trial)
         # Reasons of judges and messages of errors are full of numbers that differ from sample to sample.
         exact = failure.step is not None and failure.kind != "goal"
         text = failure.text if exact else _NUMBER.sub("#", failure.text)
         key = (failure.kind, failure.step, failure.skill, failure.line, text)
-        counts[key] += 1
+        counts[key] += one.weight
         firsts.setdefault(key, failure)
     ranked = sorted(counts, key=lambda key: (-counts[key], firsts[key].step or 0, firsts[key].text))
     return tuple(firsts[k].model_copy(update={"share": _percent(counts[k], samples)}) for k in ranked)
@@ -133,20 +156,21 @@ def _first_failure(trial: Trial) -> Failure:
     return Failure(kind=error.kind, text=error.message, line=error.line, source=error.source, share=0)
 
 
-def _by_constraint(failed: Sequence[Trial]) -> tuple[ConstraintReport, ...]:
-    found = defaultdict(list)
-    for trial in failed:
-        if trial.violations:
-            found[trial.violations[0].constraint].append(trial.violations[0])
+def _by_constraint(failed: Sequence[_Failed]) -> tuple[ConstraintReport, ...]:
+    found: defaultdict[str, list[tuple[Violation, float]]] = defaultdict(list)
+    for one in failed:
+        if one.trial.violations:
+            found[one.trial.violations[0].constraint].append((one.trial.violations[0], one.weight))
+    total = sum(one.weight for one in failed)
     reports = [
         ConstraintReport(
             constraint=name,
-            share=_percent(len(violations), len(failed)),
-            steps=tuple(sorted({violation.step for violation in violations})),
-            texts=tuple(text for text, _ in Counter(v.text for v in violations).most_common(_TEXTS)),
-            best_margin=max(violation.margin for violation in violations),
+            share=_percent(sum(weight for _, weight in told), total),
+            steps=tuple(sorted({violation.step for violation, _ in told})),
+            texts=tuple(text for text, _ in Counter(v.text for v, _ in told).most_common(_TEXTS)),
+            best_margin=max(violation.margin for violation, _ in told),
         )
-        for name, violations in found.items()
+        for name, told in found.items()
     ]
     return tuple(sorted(reports, key=lambda report: (-report.share, report.constraint)))
 
@@ -158,5 +182,5 @@ def _program_errors(error: SketchError) -> tuple[Failure, ...]:
     )
 
 
-def _percent(part: int, whole: int) -> int:
+def _percent(part: float, whole: float) -> int:
     return max(5, 5 * round(20 * part / whole))

@@ -22,6 +22,7 @@ from proc3s.samplers import Space
 from proc3s.sketch.limits import Limits
 from proc3s.solving import Solver
 from proc3s.specfile import scalar, validate
+from proc3s.world import World
 
 DEFAULT_SOLVER = "rejection"
 DEFAULT_PRESET = "best"
@@ -51,6 +52,7 @@ class RunOptions(specs.Spec):
     jobs: int = Field(1, ge=1)
     no_screens: bool = False
     audit: int = Field(0, ge=0)
+    robust: int = Field(0, ge=0)
     check_goal: bool | None = None
     candidates: int = Field(1, ge=1)
     llm_jobs: int = Field(1, ge=1)
@@ -97,6 +99,7 @@ def make_problem(registry: Registry, options: RunOptions, goal_needed: bool = Tr
         seed=options.seed,
         samples=options.samples or budget[preset.budget],
         check_goal=preset.check_goal if options.check_goal is None else options.check_goal,
+        robust=options.robust,
         screens="none" if options.no_screens else preset.screens,
     )
 
@@ -131,6 +134,8 @@ def make_setup(registry: Registry, options: RunOptions, problem: Problem) -> Set
     make = solver.load()
     executor: Executor = registry.get(specs.ExecutorSpec, options.executor).load()(jobs=options.jobs)
     problem.domain.require(problem.task)
+    if problem.robust and problem.domain.spec.world.load().disturb is World.disturb:
+        raise UsageError(f"--robust: nothing disturbs the world of {problem.domain.spec.name}")
 
     def make_solver(space: Space, budget: int, rng: np.random.Generator) -> Solver:
         made: Solver = make(space, budget, rng, solver_options)

@@ -105,6 +105,7 @@ def _attempt(event: dict[str, Any], proposal: Proposal) -> Attempt:
         nearest=event["nearest"],
         samples=event["samples"],
         evaluations=event["evaluations"],
+        rehearsals=event.get("rehearsals", 0),
         rejected_by=event["rejected_by"],
     )
 

@@ -22,7 +22,8 @@ class Problem:
     """A CCSP: a domain, an initial state, a goal in words, a program, a seed and a budget of samples.
 
     It hashes, pickles and replays; `scene` is the initial state as JSON. With `check_goal` a plan must
-    also satisfy the judges of the task. `screens` and `prefixes` switch off what only saves time.
+    also satisfy the judges of the task; with `robust` it must pass as many rehearsals. `screens` and
+    `prefixes` switch off what only saves time.
     """
 
     domain: Domain
@@ -33,6 +34,7 @@ class Problem:
     samples: int
     program: str = ""
     check_goal: bool = False
+    robust: int = 0
     screens: Literal["all", "exact", "none"] = "all"
     prefixes: bool = True
 
@@ -56,7 +58,7 @@ class Problem:
     def active_screens(self, stateful: bool) -> tuple[ScreenSpec, ...]:
         """The screens that may be used, of one of the two sorts."""
         wanted = {"all": (True, False), "exact": (True,), "none": ()}[self.screens]
-        return tuple(s for s in self.domain.spec.screens if s.exact in wanted and s.stateful == stateful)
+        return tuple(s for s in self.domain.screens if s.exact in wanted and s.stateful == stateful)
 
     def digest(self) -> str:
         """SHA-256 over everything that the verdict on a plan depends on."""
@@ -129,7 +131,7 @@ class Trial:
 
     `reached` counts the steps before the first violation. `margins` holds, per step that was carried
     out, the margin of every constraint that applies. `screen` names the screen that rejected the plan.
-    `index` counts the samples of a problem from 0.
+    `rehearsals` counts those of the plan, `index` the samples of a problem from 0.
     """
 
     plan: Plan | None = None
@@ -138,6 +140,7 @@ class Trial:
     margins: tuple[Mapping[str, float], ...] = ()
     error: Exception | None = None
     screen: str | None = None
+    rehearsals: int = 0
     index: int = 0
     u: tuple[float, ...] = ()
 

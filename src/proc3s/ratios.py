@@ -53,6 +53,9 @@ class Row(BaseModel):
     """To a solution, over the seeds that are solved."""
     faster_per_solution: Ratio | None = None
     errors: tuple[str, ...] = ()
+    audited: int = 0
+    """Rejects of the screens that were put to the world after all, and how many of them it accepts."""
+    wrong: int = 0
 
 
 def rows(measurements: Sequence[Measurement]) -> list[Row]:
@@ -86,6 +89,8 @@ def _row(case: str, way: str, measurements: Sequence[Measurement]) -> Row:
         us_per_sample={stage: 1e6 * value / max(samples, 1) for stage, value in spent.items()},
         s_per_solution={stage: value / solved for stage, value in spent.items()} if solved else None,
         samples_per_second=samples / sum(m.wall for m in own),
+        audited=sum(m.audited for m in own),
+        wrong=sum(m.wrong for m in own),
         errors=tuple(dict.fromkeys(m.error for m in own if m.error)),
         **compared,
     )

@@ -1,10 +1,24 @@
 """What one worker keeps to roll out plans of one problem: a world, stateful screens, known prefixes."""
 
+import dataclasses
+import hashlib
+import json
 from typing import Any
+
+import numpy as np
 
 from proc3s.errors import blame
 from proc3s.problem import Prefixes, Problem, Trial, rollout
 from proc3s.state import Plan
+
+REHEARSAL = "rehearsal"
+"""Stands for the constraint of a violation that only a disturbed world finds."""
+
+
+def _words(plan: Plan) -> list[int]:
+    """A plan as numbers that seed a generator."""
+    digest = hashlib.sha256(json.dumps([action.to_json() for action in plan]).encode()).digest()
+    return [int(word) for word in np.frombuffer(digest, np.uint32)]
 
 
 class Rollouts:
@@ -28,7 +42,25 @@ class Rollouts:
             if violation is not None:
                 return Trial(plan, (violation,), violation.step, screen=name)
         with blame("world"):
-            return rollout(self._world, self._problem, plan, self._prefixes)
+            trial = rollout(self._world, self._problem, plan, self._prefixes)
+            return self._rehearsed(plan, trial) if trial.accepted else trial
+
+    def _rehearsed(self, plan: Plan, trial: Trial) -> Trial:
+        """The trial of an accepted plan after its rehearsals: with disturbances that depend on the plan
+        alone it is carried out again, and must still violate nothing."""
+        for k in range(self._problem.robust):
+            rng = np.random.default_rng([self._problem.seed, k, *_words(plan)])
+            try:
+                self._world.disturb(rng)
+                again = rollout(self._world, self._problem, plan)
+            finally:
+                self._world.disturb(None)
+            trial = dataclasses.replace(trial, rehearsals=k + 1)
+            if not again.accepted:
+                first = again.violations[0]
+                told = dataclasses.replace(first, constraint=REHEARSAL, text=f"rehearsed: {first.text}")
+                return dataclasses.replace(trial, violations=(told,), reached=again.reached)
+        return trial
 
     def close(self) -> None:
         """Close the world, and the screens that can be closed."""

@@ -37,6 +37,7 @@ class Attempt:
     broken_off: Proc3sError | None = None
     samples: int = 0
     evaluations: int = 0
+    rehearsals: int = 0
     rejected_by: Mapping[str, int] = field(default_factory=dict)
 
 
@@ -78,6 +79,12 @@ class Entrant:
     evaluator: Evaluator
     search: Search
     audit: Audit | None
+    review: Audit
+
+
+REVIEWED = 24
+"""So many rejects of screens that are not exact are put to the world before a round is diagnosed: a screen
+may name a later step, or another constraint, than the world would."""
 
 
 def run_round(setup: Setup, proposals: Sequence[Proposal], emit: Emit) -> Round:
@@ -120,7 +127,8 @@ def _enter(setup: Setup, proposal: Proposal, boxes: ExitStack, emit: Emit) -> En
 
 def _search(setup: Setup, opened: Opened, proposal: Proposal, emit: Emit) -> Entrant:
     audit = Audit(setup.audit, setup.problem.seed) if setup.audit else None
-    evaluator = Evaluator(setup.problem, opened.sketch, setup.executor, Repeatable(setup), audit)
+    review = Audit(REVIEWED, setup.problem.seed)
+    evaluator = Evaluator(setup.problem, opened.sketch, setup.executor, Repeatable(setup), audit, review)
     # A key of its own for every program, so that no search draws the numbers that made the scene.
     key = (proposal.round, proposal.candidate) if proposal.candidate else (proposal.round,)
     rng = np.random.default_rng(np.random.SeedSequence(setup.problem.seed, spawn_key=key))
@@ -128,7 +136,7 @@ def _search(setup: Setup, opened: Opened, proposal: Proposal, emit: Emit) -> Ent
     solver = setup.make_solver(space, _budget(setup), rng)
     report = partial(BatchEvaluated.from_trials, proposal.round, proposal.candidate)
     search = Search(space, solver, evaluator, lambda trials: emit(report(trials)))
-    return Entrant(setup, opened, evaluator, search, audit)
+    return Entrant(setup, opened, evaluator, search, audit, review)
 
 
 def _attempt(entrant: Entrant, proposal: Proposal, emit: Emit) -> Attempt:
@@ -136,8 +144,11 @@ def _attempt(entrant: Entrant, proposal: Proposal, emit: Emit) -> Attempt:
     if entrant.audit and not search.broken_off:
         found = entrant.audit.check(setup.problem, setup.executor)
         emit(Audited.of(proposal.round, proposal.candidate, found))
+    reviewed: tuple[Trial, ...] = ()
+    if not search.broken_off and not search.solution:
+        reviewed = entrant.review.check(setup.problem, setup.executor).world
     return Attempt(
-        diagnosis=diagnose(search.trials, search.halted, setup.problem, search.space),
+        diagnosis=diagnose(search.trials, search.halted, setup.problem, search.space, reviewed),
         round=proposal.round,
         candidate=proposal.candidate,
         solution=search.solution,
@@ -146,6 +157,7 @@ def _attempt(entrant: Entrant, proposal: Proposal, emit: Emit) -> Attempt:
         broken_off=search.broken_off,
         samples=entrant.evaluator.samples,
         evaluations=entrant.evaluator.evaluations,
+        rehearsals=entrant.evaluator.rehearsals,
         rejected_by=dict(entrant.evaluator.rejected_by),
     )
 
@@ -178,6 +190,7 @@ def _ended(attempt: Attempt) -> AttemptEnded:
         diagnosis=attempt.diagnosis,
         samples=attempt.samples,
         evaluations=attempt.evaluations,
+        rehearsals=attempt.rehearsals,
         rejected_by=dict(attempt.rejected_by),
         fallback=[action.to_json() for action in attempt.fallback] if attempt.fallback else None,
         nearest=dict(attempt.nearest) if attempt.nearest else None,

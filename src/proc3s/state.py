@@ -122,6 +122,24 @@ class PlanBatch:
     def __len__(self) -> int:
         return len(self.start) - 1
 
+    def select(self, samples: NDArray[np.intp]) -> "PlanBatch":
+        """The same plans, only of these samples, in ascending order."""
+        if len(samples) == len(self):
+            return self
+        lengths = np.diff(self.start)[samples]
+        actions = _ranges(self.start[samples], lengths)
+        widths = np.diff(self.offset)[actions]
+        where = {int(sample): k for k, sample in enumerate(samples)}
+        return PlanBatch(
+            signatures=self.signatures,
+            start=np.concatenate([[0], np.cumsum(lengths)]),
+            skill=self.skill[actions],
+            offset=np.concatenate([[0], np.cumsum(widths)]),
+            values=self.values[_ranges(self.offset[actions], widths)],
+            errors={where[i]: error for i, error in self.errors.items() if i in where},
+            logs={where[i]: log for i, log in self.logs.items() if i in where},
+        )
+
     def plan(self, i: int) -> Plan:
         """Sample i as ground actions. Raises the sample's own error if it has no plan."""
         if i in self.errors:
@@ -130,6 +148,12 @@ class PlanBatch:
         columns = iter(self.values[self.offset[first] : self.offset[last]].tolist())
         skills = (self.signatures[k] for k in self.skill[first:last].tolist())
         return tuple(Action(s.skill, tuple(_decode(p, columns) for p in s.params)) for s in skills)
+
+
+def _ranges(starts: NDArray[np.int64], lengths: NDArray[np.int64]) -> NDArray[np.int64]:
+    """The numbers of every range, from its start on, one range after the other."""
+    ends = np.cumsum(lengths)
+    return np.arange(ends[-1] if len(ends) else 0) + np.repeat(starts - ends + lengths, lengths)
 
 
 def _decode(param: Parameter, columns: Iterator[float]) -> Value:

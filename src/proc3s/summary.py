@@ -35,6 +35,8 @@ class Summary(BaseModel):
     """Feedback rounds after the first answer."""
     samples: int = 0
     evaluations: int = 0
+    rehearsals: int = 0
+    """Of plans that the world had accepted, under disturbances (`--robust`)."""
     rejected_by: dict[str, int] = {}
     seconds: dict[str, float] = {}
     cpu_seconds: dict[str, float] = {}
@@ -79,6 +81,7 @@ def summarize(
         rounds=outcome.feedback,
         samples=sum(attempt.samples for attempt in outcome.attempts),
         evaluations=sum(attempt.evaluations for attempt in outcome.attempts),
+        rehearsals=sum(attempt.rehearsals for attempt in outcome.attempts),
         rejected_by=_rejected_by(outcome),
         seconds=_seconds(outcome.clock.wall, wall),
         cpu_seconds=_seconds(outcome.clock.cpu, cpu),

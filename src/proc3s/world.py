@@ -4,7 +4,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
-from proc3s.errors import blame
+import numpy as np
+
+from proc3s.errors import UsageError, blame
+from proc3s.specs import ScreenSpec
 from proc3s.state import Action, Plan, State
 
 if TYPE_CHECKING:
@@ -44,6 +47,9 @@ class World(Generic[T]):
     most_prefixes: ClassVar[int] = 256
     """How many snapshots of beginnings of plans are kept; 0 where a step is cheaper than looking one up."""
 
+    screens: ClassVar[tuple[ScreenSpec, ...]] = ()
+    """Cheap tests that come with this world, for every domain in which it accepts plans."""
+
     def __init__(self, domain: "Domain") -> None:
         self.domain = domain
         self.state: Any = None
@@ -71,6 +77,14 @@ class World(Generic[T]):
             telemetry = self.domain.skill(action.skill)(self, *action.args)
         self._snapshot = self.save()
         return Transition(before, action, self.observe(), telemetry)
+
+    def disturb(self, rng: np.random.Generator | None) -> None:
+        """Carry actions out with small errors from the next reset on, as the real thing would; None: without.
+
+        All errors are drawn from the generator. Raises UsageError in a world that knows none.
+        """
+        if rng is not None:
+            raise UsageError(f"the world of {self.domain.spec.name} has no disturbances to rehearse with")
 
     def place(self, state: State) -> None:
         """Build everything that the state describes."""

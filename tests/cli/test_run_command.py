@@ -18,6 +18,7 @@ KEYS = [
     "rounds",
     "samples",
     "evaluations",
+    "rehearsals",
     "rejected_by",
     "seconds",
     "cpu_seconds",

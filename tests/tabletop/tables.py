@@ -5,7 +5,7 @@ import math
 from proc3s_tabletop.bodies import CATEGORIES
 from proc3s_tabletop.recipe import Recipe
 from proc3s_tabletop.reference import Reference
-from proc3s_tabletop.scene import Frame
+from proc3s_tabletop.things import Frame
 
 
 def frames_of(positions):

@@ -5,7 +5,8 @@ from tables import verdict
 from proc3s_tabletop.bodies import BLOCK_SIZE, CATEGORIES, Body, Box, Cylinder
 from proc3s_tabletop.recipe import Recipe
 from proc3s_tabletop.reference import Reference
-from proc3s_tabletop.scene import Frame, Scene, Snapshot
+from proc3s_tabletop.scene import Scene, Snapshot
+from proc3s_tabletop.things import Frame
 
 UPRIGHT = (0.0, 0.0, 0.0, 1.0)
 

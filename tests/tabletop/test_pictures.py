@@ -14,7 +14,8 @@ from proc3s import Pose
 from proc3s_tabletop.bodies import Body, Bowl, Box, Cylinder
 from proc3s_tabletop.execution import ExecutionWorld
 from proc3s_tabletop.pictures import SIZE, Studio
-from proc3s_tabletop.scene import Frame, Snapshot
+from proc3s_tabletop.scene import Snapshot
+from proc3s_tabletop.things import Frame
 from proc3s_tabletop.visuals import UNKNOWN, color_of
 from proc3s_tabletop.world import ReferenceWorld, pick, place
 

@@ -82,7 +82,7 @@ VIOLATIONS = {
     "pick where the object was": (
         "grasp",
         f"nothing is between the fingers; the nearest object is {RED}",
-        [PICK_A, place(-0.15, -0.35, 0.02), PICK_A],
+        [PICK_A, place(-0.15, -0.36, 0.02), PICK_A],
     ),
     "grasp off centre": ("grasp", f"too little of {RED}", [("pick", -0.132, -0.5, 0.02)]),
     "fingers on the object itself": (

@@ -75,6 +75,10 @@ NoScreens: TypeAlias = Annotated[
 AuditOption: TypeAlias = Annotated[
     int | None, typer.Option("--audit", min=0, help="put N rejects of the screens to the world after all")
 ]
+Robust: TypeAlias = Annotated[
+    int | None,
+    typer.Option("--robust", min=0, help="accept only plans that also pass K rehearsals with small errors"),
+]
 CheckGoal: TypeAlias = Annotated[
     bool | None,
     typer.Option("--check-goal/--no-check-goal", help="accept only plans that satisfy the judge"),

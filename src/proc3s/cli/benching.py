@@ -24,7 +24,10 @@ SEARCHES = (
     *("program", "way", "solved", "samples", "world", "us/sample", STAGES, "s/solution", "samples/s"),
     *("faster a sample", "fewer samples", "faster a solution"),
 )
-BATCHES = ("program", "way", "us/sample", STAGES, "samples/s", "screens: plans/s", "world: plans/s", "faster")
+BATCHES = (
+    *("program", "way", "us/sample", STAGES, "samples/s", "screens: plans/s", "wrong rejects"),
+    *("world: plans/s", "faster"),
+)
 
 
 _WIDTH = 180
@@ -166,7 +169,9 @@ def _batch_cells(row: Row) -> list[str]:
         f"{row.us_per_sample['total']:.1f}",
         _stages(row, "{:.1f}"),
         f"{row.samples_per_second:,.0f}",
-        *(f"{1e6 / us:,.0f}" if us else "" for us in (screens, world)),
+        f"{1e6 / screens:,.0f}" if screens else "",
+        f"{row.wrong}/{row.audited}" if row.audited else "",
+        f"{1e6 / world:,.0f}" if world else "",
         str(row.faster_per_sample or ""),
     ]
 
