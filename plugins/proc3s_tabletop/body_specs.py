@@ -107,6 +107,14 @@ def bodies_of(given: Mapping[str, Any] | None, folder: Path | None = None) -> Ma
     return {category: _body(f"bodies.{category}", spec, folder) for category, spec in given.items()}
 
 
+def body_of(categories: Mapping[str, Body], name: str, category: str) -> Body:
+    """The body of an object of a state. Raises SpecError for a category without a body."""
+    if category not in categories:
+        known = ", ".join(sorted(categories))
+        raise SpecError([Issue(name, "category", f"no body for {category!r}; there are {known}")])
+    return categories[category]
+
+
 def _body(where: str, given: Any, folder: Path | None) -> Body:
     shape = given.get("shape") if isinstance(given, Mapping) else None
     if not isinstance(shape, str) or shape not in SHAPES:

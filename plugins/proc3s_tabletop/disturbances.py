@@ -1,7 +1,5 @@
 """What differs each time a real arm does the same: its speed, and where exactly it goes."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
 SPEED = 0.05
@@ -10,19 +8,23 @@ OFF = 0.0005
 """A commanded point is up to this far off along x and along y, m."""
 
 
-@dataclass(frozen=True)
 class Disturbance:
-    """One time that a plan is carried out: a speed, and a generator for the errors of its points."""
+    """One time that a plan is carried out: a speed, and errors of its points, drawn uniformly.
 
-    speed: float
-    rng: np.random.Generator
+    In a `corner` all errors are as large as they get; those of an even corner are opposite to the next one's.
+    """
 
-    @classmethod
-    def drawn(cls, rng: np.random.Generator) -> "Disturbance":
-        """With a speed that is drawn uniformly."""
-        return cls(float(rng.uniform(1 - SPEED, 1 + SPEED)), rng)
+    def __init__(self, rng: np.random.Generator, corner: int | None = None) -> None:
+        self._rng, self._corner = rng, corner
+        self.speed = 1 + SPEED * self._error()
 
     def off(self, x: float, y: float, z: float) -> tuple[float, float, float]:
         """A point near another, metres, a new one at each call."""
-        dx, dy = self.rng.uniform(-OFF, OFF, 2).tolist()
-        return x + dx, y + dy, z
+        return x + OFF * self._error(), y + OFF * self._error(), z
+
+    def _error(self) -> float:
+        """Between -1 and 1."""
+        error = float(self._rng.uniform(-1, 1))
+        if self._corner is None:
+            return error
+        return float(np.sign(error)) * (1.0 if self._corner % 2 == 0 else -1.0)

@@ -12,6 +12,9 @@ from proc3s_tabletop.layout import Rows
 BAND = 0.001
 """What is nearer to the edge than this is left to the world, m."""
 
+WORLD, CONSTRAINTS = "proc3s_tabletop.world", "proc3s_tabletop.constraints:"
+"""Only of the toolbox's own skills and constraints is it known what they do."""
+
 Verdicts: TypeAlias = list[Violation | None]
 Details: TypeAlias = Callable[[int], Mapping[str, str]]
 """The details of a violation's sentence, for the i-th of the plans rejected together."""
@@ -24,6 +27,7 @@ class Foresight:
         self._objects: Mapping[str, Any] = state.objects  # type: ignore[attr-defined]
         self._batch = batch
         self._specs = {name: spec for name, spec in domain.spec.constraints.items() if _ours(spec.target)}
+        self._skills = {name for name, spec in domain.spec.skills.items() if spec.target == f"{WORLD}:{name}"}
         self._lengths = np.diff(batch.start)
         self.open = self._lengths > 0
         """The plans still looked at."""
@@ -35,14 +39,11 @@ class Foresight:
         return range(int(self._lengths.max(initial=0)))
 
     def at(self, step: int, skill: str) -> tuple[Rows, FloatArray]:
-        """The plans whose step is this skill, and its three parameters, shape (rows, 3).
-
-        Where it is a skill with other parameters, the plan is looked at no more.
-        """
+        """The plans whose step is this skill, and its three parameters, shape (rows, 3)."""
         batch = self._batch
         rows = np.flatnonzero(self.open & (self._lengths > step))
         actions = batch.start[rows] + step
-        known = np.array([s.skill == skill and s.width == 3 for s in batch.signatures])
+        known = np.array([s.skill == skill and skill in self._skills for s in batch.signatures])
         mine = known[batch.skill[actions]]
         values = batch.values[batch.offset[actions[mine], None] + np.arange(3)]
         return rows[mine], values
@@ -59,7 +60,7 @@ class Foresight:
         """Look no more at plans whose step is another skill; whether there are any that have the step."""
         batch = self._batch
         rows = np.flatnonzero(self.open & (self._lengths > step))
-        known = np.array([s.skill in skills and s.width == 3 for s in batch.signatures])
+        known = np.array([s.skill in skills & self._skills for s in batch.signatures])
         mine = known[batch.skill[batch.start[rows] + step]]
         self.leave(rows[~mine])
         return bool(mine.any())
@@ -85,4 +86,4 @@ class Foresight:
 
 def _ours(target: str) -> bool:
     """Whether a constraint is one of the toolbox's."""
-    return target.startswith("proc3s_tabletop.constraints:")
+    return target.startswith(CONSTRAINTS)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from proc3s import FloatArray
 from proc3s_tabletop.bodies import Body, Bowl, Box, Shape
+from proc3s_tabletop.body_specs import body_of
 from proc3s_tabletop.extents import rotation
 
 Bools: TypeAlias = NDArray[np.bool_]
@@ -38,9 +39,9 @@ class Solids:
 
 
 def solids(objects: Mapping[str, Any], bodies: Mapping[str, Body]) -> Solids:
-    """The bodies of the objects of a state, by their categories."""
+    """The bodies of the objects of a state, by their categories. Raises SpecError for one without a body."""
     poses = [thing.pose for thing in objects.values()]
-    shapes = [bodies[thing.category].shape for thing in objects.values()]
+    shapes = [body_of(bodies, name, thing.category).shape for name, thing in objects.items()]
     turns = [rotation(pose.roll, pose.pitch, pose.yaw) for pose in poses]
     turned = list(zip(shapes, turns, strict=True))
     inner = np.array([_inner(shape, turn) for shape, turn in turned]).reshape(-1, 3)

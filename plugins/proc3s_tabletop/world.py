@@ -8,11 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from proc3s import Plan, SpecError, State, World
-from proc3s.errors import Issue
+from proc3s import Plan, State, World
 from proc3s_tabletop import poses
 from proc3s_tabletop.bodies import Body
-from proc3s_tabletop.body_specs import bodies_of
+from proc3s_tabletop.body_specs import bodies_of, body_of
 from proc3s_tabletop.disturbances import Disturbance
 from proc3s_tabletop.reference import Reference
 from proc3s_tabletop.scene import Snapshot
@@ -42,10 +41,10 @@ class TabletopWorld(World[Telemetry]):
         self._film: list[Snapshot] = []
         self._disturbance: Disturbance | None = None
 
-    def disturb(self, rng: np.random.Generator | None) -> None:
+    def disturb(self, rng: np.random.Generator | None, corner: int | None = None) -> None:
         """From the next reset on, arm and fingers are a little faster or slower, and every commanded point is
         a little off."""
-        self._disturbance = Disturbance.drawn(rng) if rng else None
+        self._disturbance = Disturbance(rng, corner) if rng else None
 
     def commanded(self, x: float, y: float, z: float) -> tuple[float, float, float]:
         """The point that the arm takes for a commanded one."""
@@ -66,7 +65,7 @@ class TabletopWorld(World[Telemetry]):
         """Put a body where every object is, the hand empty and above. Raises SpecError on a strange one."""
         super().place(state)
         objects: dict[str, Any] = self.state.objects
-        bodies = {name: self._body(name, thing.category) for name, thing in objects.items()}
+        bodies = {name: body_of(self.categories, name, thing.category) for name, thing in objects.items()}
         frames = {name: poses.frame(thing.pose) for name, thing in objects.items()}
         if self._table is None or bodies != self._bodies:
             self.close()
@@ -74,12 +73,6 @@ class TabletopWorld(World[Telemetry]):
         self._table.put(frames)
         self._table.set_speed(self._disturbance.speed if self._disturbance else self.speed)
         self._film = []
-
-    def _body(self, name: str, category: str) -> Body:
-        if category not in self.categories:
-            known = ", ".join(sorted(self.categories))
-            raise SpecError([Issue(name, "category", f"no body for {category!r}; there are {known}")])
-        return self.categories[category]
 
     def observe(self) -> State:
         """The state of the last reset, with every object that moved where it is now."""

@@ -33,6 +33,8 @@ _BATCHES = (64, 192, 768, 1024)
 _ENOUGH = 8.0
 """CPU seconds after which a throughput run begins no further batch: in a simulator few plans say enough."""
 _AUDITED = 50
+_WARMING = 6
+"""Plans before the first measurement: enough for every worker to start."""
 STAGES = ("program", "screens", "world", "other")
 """Where CPU time goes; `other` is the solver and the bookkeeping."""
 
@@ -66,6 +68,10 @@ class Way:
 
 PLAIN = Way("plain", "rejection", saving=False)
 """What everything is compared with: rejection, no screens, no prefix cache, in this process."""
+
+
+SCREENED = Way("screened", "rejection")
+"""The same with all that saves work."""
 
 
 @dataclass(frozen=True)
@@ -163,9 +169,13 @@ class Bench:
 
         Of what the screens reject a few are put to the world afterwards, which no time counts.
         """
+        for way in (PLAIN, SCREENED):
+            yield self.stream(case, seed, way, samples)
+
+    def stream(self, case: Case, seed: int, way: Way, samples: int) -> Measurement:
+        """The same in one of these ways; `audited` and `wrong` tell how the screens did."""
         with open_sketch(self._setup(case, seed, PLAIN)) as opened:
-            for way in (PLAIN, Way("screened", "rejection")):
-                yield _stream(case, way, self._setup(case, seed, way), opened.sketch, samples)
+            return _stream(case, way, self._setup(case, seed, way), opened.sketch, samples)
 
     def _setup(self, case: Case, seed: int, way: Way) -> Setup:
         options = RunOptions.model_validate(
@@ -191,7 +201,8 @@ class Bench:
 
 def _warm_up(setup: Setup, sketch: Sketch) -> None:
     """Import what solver, world and workers need: a few plans, and a solver whose samples all fail."""
-    list(Evaluator(setup.problem, sketch, setup.executor).stream(np.full((1, sketch.space.dim), 0.5)))
+    u = np.random.default_rng(0).random((_WARMING, sketch.space.dim))
+    list(Evaluator(setup.problem, sketch, setup.executor).stream(u))
     solver = setup.make_solver(_space(sketch), setup.problem.samples, np.random.default_rng(0))
     for _ in range(8):
         asked = solver.ask(setup.problem.samples)

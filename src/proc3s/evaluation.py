@@ -122,7 +122,7 @@ class Evaluator:
         rows, first = u.tolist(), self.samples
         settled: dict[int, Trial] = {}
         with self.clock("screens"):
-            passed = np.arange(len(batch))
+            passed = np.array([i for i in range(len(batch)) if i not in batch.errors], np.intp)
             for screen in self._screens:
                 verdicts = screen(batch.select(passed))
                 for i, violation in zip(passed.tolist(), verdicts, strict=True):

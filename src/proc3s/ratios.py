@@ -52,6 +52,8 @@ class Row(BaseModel):
     fewer_samples: Ratio | None = None
     """To a solution, over the seeds that are solved."""
     faster_per_solution: Ratio | None = None
+    faster_by_the_clock: Ratio | None = None
+    """In wall seconds a sample: what more processes bring."""
     errors: tuple[str, ...] = ()
     audited: int = 0
     """Rejects of the screens that were put to the world after all, and how many of them it accepts."""
@@ -78,6 +80,7 @@ def _row(case: str, way: str, measurements: Sequence[Measurement]) -> Row:
             "faster_per_sample": _ratio(pairs, lambda m: m.total / max(m.samples, 1)),
             "fewer_samples": _ratio(wins, lambda m: m.samples, solving=True),
             "faster_per_solution": _ratio(wins, lambda m: m.total, solving=True),
+            "faster_by_the_clock": _ratio(pairs, lambda m: m.wall / max(m.samples, 1)),
         }
     return Row(
         case=case,

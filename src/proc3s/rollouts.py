@@ -46,12 +46,14 @@ class Rollouts:
             return self._rehearsed(plan, trial) if trial.accepted else trial
 
     def _rehearsed(self, plan: Plan, trial: Trial) -> Trial:
-        """The trial of an accepted plan after its rehearsals: with disturbances that depend on the plan
-        alone it is carried out again, and must still violate nothing."""
+        """The trial of an accepted plan after its rehearsals: with errors, too, it must violate nothing.
+
+        The errors depend on the plan alone, are as large as they get, and come in opposite pairs.
+        """
         for k in range(self._problem.robust):
-            rng = np.random.default_rng([self._problem.seed, k, *_words(plan)])
+            rng = np.random.default_rng([self._problem.seed, k // 2, *_words(plan)])
             try:
-                self._world.disturb(rng)
+                self._world.disturb(rng, corner=k)
                 again = rollout(self._world, self._problem, plan)
             finally:
                 self._world.disturb(None)

@@ -78,10 +78,11 @@ class World(Generic[T]):
         self._snapshot = self.save()
         return Transition(before, action, self.observe(), telemetry)
 
-    def disturb(self, rng: np.random.Generator | None) -> None:
+    def disturb(self, rng: np.random.Generator | None, corner: int | None = None) -> None:
         """Carry actions out with small errors from the next reset on, as the real thing would; None: without.
 
-        All errors are drawn from the generator. Raises UsageError in a world that knows none.
+        All errors are drawn from the generator. In a `corner` they are as large as they get, and those of an
+        even corner are opposite to the next one's. Raises UsageError in a world that knows no errors.
         """
         if rng is not None:
             raise UsageError(f"the world of {self.domain.spec.name} has no disturbances to rehearse with")

@@ -134,7 +134,8 @@ def test_json_is_one_document_and_jobs_mean_processes(cli, here):
     document = result.json
     assert result.stderr == ""
     assert document["options"]["executor"] == "processes"
-    plain, parallel = document["searches"]
+    plain, _, parallel = document["searches"]
+    assert [row["way"] for row in document["searches"]] == ["plain", "plain, 2 jobs", "rejection"]
     assert (plain["solved"], plain["samples"]) == (parallel["solved"], parallel["samples"])
     assert len(list(here.glob("runs/*/results.json"))) == 1
 

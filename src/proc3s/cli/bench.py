@@ -11,7 +11,13 @@ Many = list[str] | None
 
 
 def bench(
-    suite: Annotated[str, typer.Argument(metavar="SUITE", help="`ccsp`: search fixed programs, no LLM")],
+    suite: Annotated[
+        str,
+        typer.Argument(
+            metavar="SUITE",
+            help="`ccsp`: search fixed programs; `execution`: carry out what is found. No LLM",
+        ),
+    ],
     tasks: Annotated[
         Many, typer.Option("--tasks", help="domain, domain/task or domain/task.program, with commas  [all]")
     ] = None,
@@ -27,12 +33,21 @@ def bench(
     throughput: Annotated[
         int, typer.Option("--throughput", min=0, help="samples of the run in large batches; 0: none")
     ] = 4096,
+    robust: Annotated[
+        int, typer.Option("--robust", min=0, help="execution: rehearsals, compared with none")
+    ] = 2,
+    times: Annotated[
+        int, typer.Option("--times", min=1, help="execution: how often every plan is carried out")
+    ] = 10,
     out: Annotated[Path | None, typer.Option("--out", help="folder of the results  [runs/bench-…]")] = None,
     plugin: a.Plugins = None,
     json: a.Json = False,
 ) -> None:
-    """Measure how fast programs are searched: every solver against the plain path, paired by seed."""
-    from proc3s.cli.benching import Wanted, run_bench
+    """Measure how fast programs are searched, every solver against the plain path, paired by seed; or how
+    often the plans that are found lead to the goal when they are carried out with small errors."""
+    from proc3s.cli.benching import SUITES, Wanted, run_bench
+    from proc3s.cli.field_testing import run_field_test
+    from proc3s.errors import UsageError, did_you_mean
 
     wanted = Wanted(
         suite=suite,
@@ -43,9 +58,13 @@ def bench(
         jobs=jobs or 1,
         samples=samples,
         throughput=throughput,
+        robust=robust,
+        times=times,
         plugins=tuple(plugin or ()),
     )
-    run_bench(wanted, out, json)
+    if suite not in SUITES:
+        raise UsageError(f"there is no benchmark {suite!r}{did_you_mean(suite, SUITES)}")
+    {"ccsp": run_bench, "execution": run_field_test}[suite](wanted, out, json)
 
 
 def _split(given: Many) -> tuple[str, ...]:

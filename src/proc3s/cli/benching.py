@@ -12,17 +12,17 @@ from rich.console import Console
 from rich.table import Table
 
 from proc3s.benchmark import PLAIN, Bench, Case, Measurement, Way, find_cases
-from proc3s.errors import Interrupted, Proc3sError, UsageError, did_you_mean
+from proc3s.errors import Interrupted, Proc3sError, UsageError
 from proc3s.ratios import Row, rows
 from proc3s.registry import Registry, open_registry
 from proc3s.runs import new_folder, versions
 from proc3s.specs import ExecutorSpec, SolverSpec
 
-SUITES = ("ccsp",)
+SUITES = ("ccsp", "execution")
 STAGES = "program + screens + world + other"
 SEARCHES = (
     *("program", "way", "solved", "samples", "world", "us/sample", STAGES, "s/solution", "samples/s"),
-    *("faster a sample", "fewer samples", "faster a solution"),
+    *("faster a sample", "fewer samples", "faster a solution", "faster by the clock"),
 )
 BATCHES = (
     *("program", "way", "us/sample", STAGES, "samples/s", "screens: plans/s", "wrong rejects"),
@@ -46,6 +46,8 @@ class Wanted:
     jobs: int
     samples: int | None
     throughput: int
+    robust: int
+    times: int
     plugins: tuple[Path, ...]
 
 
@@ -76,7 +78,7 @@ def run_bench(wanted: Wanted, out: Path | None, as_json: bool) -> None:
     """Measure, print and write. What is done when it is interrupted is kept. Raises UsageError."""
     registry = open_registry(wanted.plugins)
     cases, ways = _chosen(registry, wanted)
-    folder = _folder(out)
+    folder = made_folder(out, wanted.suite)
     results = Results([], [])
     stopped: Proc3sError | None = None
     progress = Console(stderr=True, quiet=as_json, highlight=False)
@@ -89,8 +91,8 @@ def run_bench(wanted: Wanted, out: Path | None, as_json: bool) -> None:
     except Proc3sError as error:
         stopped = error
     document = results.document(wanted, stopped)
-    _write(folder / "results.json", json.dumps(document, indent=2, ensure_ascii=False) + "\n")
-    _write(folder / "results.md", _markdown(results))
+    write(folder / "results.json", json.dumps(document, indent=2, ensure_ascii=False) + "\n")
+    write(folder / "results.md", _markdown(results))
     if as_json:
         typer.echo(json.dumps(document, indent=2, ensure_ascii=False))
     else:
@@ -101,23 +103,25 @@ def run_bench(wanted: Wanted, out: Path | None, as_json: bool) -> None:
 
 def _chosen(registry: Registry, wanted: Wanted) -> tuple[list[Case], list[Way]]:
     """The cases and ways that are wanted. Raises UsageError for names that do not exist."""
-    if wanted.suite not in SUITES:
-        raise UsageError(f"there is no benchmark {wanted.suite!r}{did_you_mean(wanted.suite, SUITES)}")
     registry.get(ExecutorSpec, wanted.executor)
     solvers = [registry.get(SolverSpec, name).name for name in wanted.solvers]
     ways = [
         Way(solver, solver, wanted.executor, wanted.jobs)
         for solver in dict.fromkeys(solvers or registry.all(SolverSpec))
     ]
+    if wanted.jobs > 1:
+        plain = f"{PLAIN.name}, {wanted.jobs} jobs"
+        ways.insert(0, Way(plain, PLAIN.solver, wanted.executor, wanted.jobs, saving=False))
     cases = find_cases(registry, wanted.tasks)
     if not cases:
         raise UsageError("no domain brings programs for a benchmark (bench/TASK.NAME.py beside its spec)")
     return cases, ways
 
 
-def _folder(out: Path | None) -> Path:
+def made_folder(out: Path | None, suite: str) -> Path:
+    """The folder of the results; a new one below `runs` if none is named. Raises UsageError."""
     if out is None:
-        return new_folder(Path("runs"), "bench", "ccsp", 0)
+        return new_folder(Path("runs"), "bench", suite, 0)
     try:
         out.mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -137,7 +141,8 @@ def _measure(bench: Bench, cases: Sequence[Case], wanted: Wanted, results: Resul
                     results.throughput.append(measurement)
 
 
-def _write(path: Path, text: str) -> None:
+def write(path: Path, text: str) -> None:
+    """Write a file of results. Raises UsageError."""
     try:
         path.write_text(text, encoding="utf-8")
     except OSError as error:
@@ -145,7 +150,7 @@ def _write(path: Path, text: str) -> None:
 
 
 def _search_cells(row: Row) -> list[str]:
-    ratios = (row.faster_per_sample, row.fewer_samples, row.faster_per_solution)
+    ratios = (row.faster_per_sample, row.fewer_samples, row.faster_per_solution, row.faster_by_the_clock)
     return [
         row.case,
         row.way,
