@@ -5,11 +5,11 @@ import numpy as np
 SPEED = 0.05
 """Arm and fingers are up to this share faster or slower."""
 OFF = 0.0005
-"""A commanded point is up to this far off along x and along y, m."""
+"""What is placed comes down up to this far off along x and along y, m."""
 
 
 class Disturbance:
-    """One time that a plan is carried out: a speed, and errors of its points, drawn uniformly.
+    """One time that a plan is carried out: a speed, and errors of what is placed, drawn uniformly.
 
     In a `corner` all errors are as large as they get; those of an even corner are opposite to the next one's.
     """

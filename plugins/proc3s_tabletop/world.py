@@ -42,12 +42,12 @@ class TabletopWorld(World[Telemetry]):
         self._disturbance: Disturbance | None = None
 
     def disturb(self, rng: np.random.Generator | None, corner: int | None = None) -> None:
-        """From the next reset on, arm and fingers are a little faster or slower, and every commanded point is
-        a little off."""
+        """From the next reset on, arm and fingers are a little faster or slower, and what is placed comes
+        down a little off."""
         self._disturbance = Disturbance(rng, corner) if rng else None
 
-    def commanded(self, x: float, y: float, z: float) -> tuple[float, float, float]:
-        """The point that the arm takes for a commanded one."""
+    def placed(self, x: float, y: float, z: float) -> tuple[float, float, float]:
+        """Where something is placed that is to be placed at a point."""
         return self._disturbance.off(x, y, z) if self._disturbance else (x, y, z)
 
     @abstractmethod
@@ -123,9 +123,9 @@ class ReferenceWorld(TabletopWorld):
 
 def pick(world: TabletopWorld, x: float, y: float, z: float) -> Telemetry:
     """The skill: grasp from above at a point in metres, and lift."""
-    return world.table.pick(*world.commanded(x, y, z))
+    return world.table.pick(x, y, z)
 
 
 def place(world: TabletopWorld, x: float, y: float, z: float) -> Telemetry:
     """The skill: set down what is held over a point in metres, and let go."""
-    return world.table.place(*world.commanded(x, y, z))
+    return world.table.place(*world.placed(x, y, z))
