@@ -45,6 +45,12 @@ class TabletopWorld(World[Telemetry]):
         """From the next reset on, arm and fingers are a little faster or slower, and what is placed comes
         down a little off."""
         self._disturbance = Disturbance(rng, corner) if rng else None
+        self._set_speed()
+
+    def _set_speed(self) -> None:
+        # At once, too: without disturbance the next plan may go on from a snapshot, without a reset.
+        if self._table is not None:
+            self._table.set_speed(self._disturbance.speed if self._disturbance else self.speed)
 
     def placed(self, x: float, y: float, z: float) -> tuple[float, float, float]:
         """Where something is placed that is to be placed at a point."""
@@ -71,7 +77,7 @@ class TabletopWorld(World[Telemetry]):
             self.close()
             self._table, self._bodies = self.make_table(bodies, frames), bodies
         self._table.put(frames)
-        self._table.set_speed(self._disturbance.speed if self._disturbance else self.speed)
+        self._set_speed()
         self._film = []
 
     def observe(self) -> State:

@@ -40,6 +40,18 @@ def test_errors_repeat_with_the_seed_and_leave_nothing_behind(world):
     assert outcome(world) == exact
 
 
+def test_a_plan_that_goes_on_from_a_snapshot_has_no_errors_left(world):
+    world.reset(SCENE)
+    world.step(PLAN[0])
+    held = world.snapshot
+    exact = world.step(PLAN[1]).after
+    world.resume(held)
+    outcome(world, np.random.default_rng(3))
+    world.disturb(None)
+    world.resume(held)
+    assert world.step(PLAN[1]).after == exact
+
+
 def test_what_is_placed_ends_no_further_off_than_the_error(world):
     goal = _spot(outcome(world))
     for seed in range(3):
