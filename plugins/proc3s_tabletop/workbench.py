@@ -35,8 +35,8 @@ class Rest(NamedTuple):
 class Workbench:
     """Simulates a few things on a table under a hand without an arm, always in the same place.
 
-    The outcome is a function of what is asked alone, so it is remembered: whichever things of a scene are
-    meant, the first bodies of the same sort stand in for them. Close it after use.
+    Among the bodies of one scene the outcome is a function of what is asked alone, so it is remembered:
+    whichever of them are meant, the first ones of the same sort stand in for them. Close it after use.
     """
 
     def __init__(self, bodies: Mapping[str, Body], recipe: Recipe) -> None:

@@ -112,7 +112,7 @@ def diagnose(
     violated = {report.constraint for report in reports}
     return Diagnosis(
         samples=len(trials),
-        reached=max((trial.reached for trial in trials), default=0),
+        reached=max((one.trial.reached for one in weighed), default=0),
         failures=_ranked(weighed, len(trials)),
         program_errors=_program_errors(error) if error else (),
         constraints=reports,
@@ -124,12 +124,12 @@ def diagnose(
 
 def _weighed(failed: Sequence[Trial], problem: Problem | None, reviewed: Sequence[Trial]) -> list[_Failed]:
     """Failures as the world sees them: those reviewed stand for all that such screens rejected."""
-    told = [trial for trial in reviewed if not trial.accepted]
-    if problem is None or not told:
+    if problem is None or not reviewed:
         return [_Failed(trial) for trial in failed]
     exact = {None} | {spec.name for spec in problem.domain.screens if spec.exact}
     sure = [_Failed(trial) for trial in failed if trial.screen in exact]
-    return sure + [_Failed(trial, (len(failed) - len(sure)) / len(told)) for trial in told]
+    weight = (len(failed) - len(sure)) / len(reviewed)
+    return sure + [_Failed(trial, weight) for trial in reviewed if not trial.accepted]
 
 
 def _ranked(failed: Sequence[_Failed], samples: int) -> tuple[Failure, ...]:
@@ -138,7 +138,7 @@ def _ranked(failed: Sequence[_Failed], samples: int) -> tuple[Failure, ...]:
     for one in failed:
         failure = _first_failure(one.trial)
         # Reasons of judges and messages of errors are full of numbers that differ from sample to sample.
-        exact = failure.step is not None and failure.kind != "goal"
+        exact = failure.step is not None and failure.skill != "goal"
         text = failure.text if exact else _NUMBER.sub("#", failure.text)
         key = (failure.kind, failure.step, failure.skill, failure.line, text)
         counts[key] += one.weight

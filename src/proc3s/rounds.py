@@ -167,11 +167,19 @@ def _nearest(entrant: Entrant) -> Mapping[str, Any] | None:
     best = max(entrant.search.trials, key=lambda trial: trial.progress, default=None)
     if best is None or best.accepted or not (plan := best.plan or _again(entrant, best)):
         return None
+    if best.screen in {spec.name for spec in entrant.setup.problem.domain.screens if not spec.exact}:
+        best = _in_the_world(entrant, plan)  # a screen may name another step or constraint
     return {
         "reached": best.reached,
         "plan": [action.to_json() for action in plan],
         "violations": [violation.to_json() for violation in best.violations],
     }
+
+
+def _in_the_world(entrant: Entrant, plan: Plan) -> Trial:
+    """What the world says of a plan that a screen rejected."""
+    plain = replace(entrant.setup.problem, screens="none")
+    return next(iter(entrant.setup.executor.map(plain, [plan])))
 
 
 def _again(entrant: Entrant, trial: Trial) -> Plan | None:

@@ -5,11 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from proc3s import ScreenSpec, Trial, Violation
+from proc3s import Action, ScreenSpec, Trial, Violation
 from proc3s.feedback import diagnose
 from proc3s.plugins import import_loose_file
-
-from .test_execution_world import PLAN
 
 HINDSIGHT = ScreenSpec(name="hindsight", target="shaky:hindsight")
 
@@ -53,8 +51,11 @@ def test_those_reviewed_stand_for_all_that_were_rejected(made):
 
 
 def test_one_that_the_world_accepts_is_no_failure(made):
-    reviewed = [Trial(PLAN), failed("no_pit", 2, "fell into pit 2")]
-    assert table(diagnose(SCREENED, None, made, None, reviewed)) == [("no_pit", 2, "fell into pit 2", 100)]
+    passed = Trial((Action("hop", (3.0,)),))
+    reviewed = [passed, failed("no_pit", 2, "fell into pit 2")]
+    found = diagnose(SCREENED, None, made, None, reviewed)
+    assert (table(found), found.reached) == ([("no_pit", 2, "fell into pit 2", 50)], 2)
+    assert table(diagnose(SCREENED, None, made, None, [passed])) == []
 
 
 def test_with_exact_screens_nothing_changes(made):
@@ -89,4 +90,6 @@ def test_a_round_is_diagnosed_as_without_screens(cli, here):
     plain, screened = run("--no-screens").json, run().json
     assert screened["rejected_by"] == {"hindsight": 50}
     assert screened["violations"] == plain["violations"]
+    nearest = screened["nearest"]["violations"][0]
+    assert (nearest["constraint"], nearest["step"], nearest["text"]) == ("no_pit", 0, "fell into pit 0")
     assert plain["violations"][0]["text"] == "fell into pit 0"
