@@ -124,7 +124,18 @@ class Processes:
         if self._restarts > _MOST_RESTARTS:
             jobs = f"--jobs {self._jobs}"
             raise UsageError(f"{self._restarts} worker processes died; is there memory enough for {jobs}?")
+        self._kill()
         self.close()
+
+    def _kill(self) -> None:
+        """End the workers at once.
+
+        A pool ends its own when one of them dies, but misses one that is just being started, and then waits
+        for it for ever (CPython 3.11); it has no public way to say this.
+        """
+        processes = self._pool._processes if self._pool else None
+        for process in list((processes or {}).values()):
+            process.kill()
 
     def close(self) -> None:
         """End the workers; each finishes the chunk that it works on."""
