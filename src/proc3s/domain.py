@@ -131,4 +131,4 @@ def _scene_options(task: str, make: Callable[..., Any], options: Mapping[str, An
 
 def _parameter(name: str, spec: ParamSpec, objects: tuple[str, ...]) -> Parameter:
     choices = objects if spec.type == "object" else spec.choices
-    return Parameter(name, spec.type, spec.min, spec.max, spec.noise, choices)
+    return Parameter(name, spec.type, spec.min, spec.max, spec.noise, spec.turn_noise, choices)

@@ -1,13 +1,17 @@
 """Gaussian noise around a fixed plan, as a sketch of its own: one dimension for every perturbed number."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from statistics import NormalDist
+from typing import NamedTuple
 
 import numpy as np
 
 from proc3s.samplers import Space
-from proc3s.state import WIDTH, FloatArray, PlanBatch
+from proc3s.state import WIDTH, FloatArray, Parameter, PlanBatch
+from proc3s.transforms import compose
 
+_SIX = np.arange(6)
 _inv_cdf = np.vectorize(NormalDist().inv_cdf, otypes=[float])
 
 
@@ -28,25 +32,37 @@ class Normal:
 class Jitter:
     """A plan whose numbers are the open parameters, with the noise and within the range of their skills.
 
-    `batch` holds the one plan. The paper's Gaussian baselines (appendix) perturb every numeric argument.
+    `batch` holds the one plan. The paper's Gaussian baselines (appendix) perturb every numeric argument. A
+    pose and a grasp are moved and turned by a small transform in their own frame; a grasp that several
+    actions on the same objects have is one grasp, and stays so.
     """
 
     def __init__(self, batch: PlanBatch) -> None:
         self._batch = batch
-        params = [p for k in batch.skill for p in batch.signatures[k].params for _ in range(WIDTH[p.type])]
-        numeric = [p.type in ("float", "point") for p in params]
-        self._noise = np.where(numeric, [p.noise for p in params], 0.0)
-        self._low = np.where(numeric, [p.low for p in params], -np.inf)
-        self._high = np.where(numeric, [p.high for p in params], np.inf)
-        names = {f"number_{i}": Normal(scale) for i, scale in enumerate(self._noise) if scale > 0}
-        self.space = Space(names)
+        params = [p for k in batch.skill for p in batch.signatures[k].params]
+        starts = np.cumsum([0, *(WIDTH[p.type] for p in params)])[:-1].tolist()
+        columns = [p for p in params for _ in range(WIDTH[p.type])]
+        ranged = [p.type in ("float", "point") for p in columns]
+        self._low = np.where(ranged, [p.low for p in columns], -np.inf)
+        self._high = np.where(ranged, [p.high for p in columns], np.inf)
+        self._rigid = [at for p, at in zip(params, starts, strict=True) if p.type in ("pose", "grasp")]
+        self._noise = np.concatenate([_noise(p) for p in params])
+        self._source = np.arange(len(columns))
+        for repeat in _repeats(batch):
+            self._source[repeat.again + _SIX] = repeat.first + _SIX
+        own = np.flatnonzero((self._noise > 0) & (self._source == np.arange(len(columns))))
+        self._own = own
+        self.space = Space({f"number_{i}": Normal(float(self._noise[i])) for i in own.tolist()})
 
     def plans(self, u: FloatArray, first: int = 0) -> PlanBatch:
         """Perturbed plans, one for each row of u; their numbers change nothing."""
         n, base = len(u), self._batch
-        values = np.tile(base.values, (n, 1))
-        values[:, self._noise > 0] += self.space.decode(u)
-        values = np.clip(values, self._low, self._high)
+        offsets = np.zeros((n, base.values.size))
+        offsets[:, self._own] = self.space.decode(u)
+        offsets = offsets[:, self._source]
+        values = np.clip(base.values + offsets, self._low, self._high)
+        for at in self._rigid:
+            values[:, at : at + 6] = _moved(base.values[at : at + 6], offsets[:, at : at + 6])
         actions, width = len(base.skill), base.values.size
         offset = np.add.outer(np.arange(n) * width, base.offset[:-1]).ravel()
         return PlanBatch(
@@ -56,3 +72,35 @@ class Jitter:
             offset=np.append(offset, n * width),
             values=values.ravel(),
         )
+
+
+class Repeat(NamedTuple):
+    """Where the six numbers of a grasp stand first, and where again."""
+
+    first: int
+    again: int
+
+
+def _repeats(batch: PlanBatch) -> Iterator[Repeat]:
+    known: dict[tuple[bytes, bytes], int] = {}
+    for action, skill in enumerate(batch.skill.tolist()):
+        params, at = batch.signatures[skill].params, int(batch.offset[action])
+        starts = np.cumsum([at, *(WIDTH[p.type] for p in params)])[:-1].tolist()
+        named = [start for p, start in zip(params, starts, strict=True) if p.type == "object"]
+        for start in (start for p, start in zip(params, starts, strict=True) if p.type == "grasp"):
+            key = batch.values[named].tobytes(), batch.values[start + _SIX].tobytes()
+            if (first := known.setdefault(key, start)) != start:
+                yield Repeat(first, start)
+
+
+def _noise(param: Parameter) -> FloatArray:
+    """The standard deviation of each number of a parameter."""
+    if param.type in ("pose", "grasp"):
+        return np.repeat([param.noise, param.turn_noise], 3)
+    return np.full(WIDTH[param.type], param.noise if param.type in ("float", "point") else 0.0)
+
+
+def _moved(pose: FloatArray, by: FloatArray) -> FloatArray:
+    """A pose (6,) moved by transforms (n, 6) in its own frame; left to the bit where there is no move."""
+    poses = np.broadcast_to(pose, by.shape)
+    return np.where(by.any(axis=1, keepdims=True), compose(poses, by), poses)

@@ -79,6 +79,8 @@ class Registry:
             }
         )
         self._check_use(spec, merged, wanted)
+        for sampler in wanted.values():
+            _check_made(spec, sampler)
         return Domain(merged, tuple(wanted.values()))
 
     def _attached(self, cls: type[S], domain: DomainSpec) -> dict[str, S]:
@@ -117,6 +119,20 @@ class Registry:
             known = did_you_mean(task_name, domain.spec.tasks)
             raise UsageError(f"domain {domain_name} has no task {task_name!r}{known}")
         return domain, domain.spec.tasks[task_name]
+
+
+def _check_made(domain: DomainSpec, sampler: specs.SamplerSpec) -> None:
+    """A sampler makes a number, a choice, or a type that the domain has and that is made of numbers.
+
+    Raises SpecError.
+    """
+    if sampler.gives in ("float", "choice"):
+        return
+    made = domain.types.get(sampler.gives)
+    if made is None or any(field.type != "float" for field in made.fields.values()):
+        lack = "does not have" if made is None else "has, but not of floats alone"
+        message = f"{sampler.name} makes a {sampler.gives}, a type that the domain {lack}"
+        raise SpecError([Issue(f"domain {domain.name}", "samplers", message)])
 
 
 def open_registry(files: Sequence[Path] = ()) -> Registry:

@@ -108,7 +108,10 @@ class ParamSpec(Spec):
     max: float = math.inf
     """Largest legal value of a number."""
     noise: float = Field(0.0, ge=0)
-    """Standard deviation at full scale for the Gaussian methods, in the parameter's unit; 0: left alone."""
+    """Standard deviation at full scale for the Gaussian methods, in the parameter's unit; 0: left alone.
+    Of a `pose` and a `grasp` it is that of the position, m."""
+    turn_noise: float = Field(0.0, ge=0)
+    """The same for the three angles of a `pose` or `grasp`, rad."""
     choices: tuple[str, ...] = ()
     """The legal values of a `str`."""
 
@@ -118,8 +121,10 @@ class ParamSpec(Spec):
             raise ValueError("a parameter of type str needs choices")
         if self.min > self.max:
             raise ValueError(f"min {self.min} is above max {self.max}")
-        if self.noise and self.type not in ("float", "point"):
-            raise ValueError(f"only numbers and points take noise, not a {self.type}")
+        if self.noise and self.type not in ("float", "point", "pose", "grasp"):
+            raise ValueError(f"numbers, points, poses and grasps take noise, not a {self.type}")
+        if self.turn_noise and self.type not in ("pose", "grasp"):
+            raise ValueError(f"poses and grasps take turn_noise, not a {self.type}")
         return self
 
 
@@ -146,8 +151,9 @@ class SamplerSpec(Target):
     """One sentence for the LLM."""
     params: dict[Identifier, Literal["float", "list"]]
     """Constructor parameters in order, as programs give them."""
-    gives: Literal["float", "choice"] = "float"
-    """`float`: the number itself; `choice`: an index into the list that is the first parameter."""
+    gives: Identifier = "float"
+    """`float`: the number itself; `choice`: an index into the list that is the first parameter; else a type
+    of the domain whose fields are all numbers: its fields in order."""
     domains: tuple[str, ...] = ()
     """Domains that the sampler attaches to by itself; `*` is every domain."""
 

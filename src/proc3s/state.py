@@ -86,6 +86,7 @@ class Parameter:
     low: float = -math.inf
     high: float = math.inf
     noise: float = 0.0
+    turn_noise: float = 0.0
     choices: tuple[str, ...] = ()
 
 

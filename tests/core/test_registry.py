@@ -87,6 +87,18 @@ def test_using_what_nobody_brings(tmp_path, plugin):
         registry.domain("toy")
 
 
+@pytest.mark.parametrize(
+    ("made", "words"),
+    [("Pose", r"makes a Pose, a type that the domain does not have"), ("Bead", r"not of floats alone")],
+)
+def test_a_sampler_of_a_type_that_the_domain_cannot_make(tmp_path, plugin, made, words):
+    toy_world.write(tmp_path)
+    domain, parts = plugin("domain", BRING_DOMAIN), BRING_PARTS.replace("DOMAINS", ', domains=("toy",)')
+    registry = open_registry([domain, plugin("parts", parts.replace('"choice"', f'"{made}"'))])
+    with pytest.raises(SpecError, match=words):
+        registry.domain("toy")
+
+
 def test_a_sampler_that_is_not_there(tmp_path, plugin):
     toy_world.write(tmp_path, toy_world.DOMAIN.replace("[ContinuousSampler]", "[ContinousSampler]"))
     registry = open_registry([plugin("toy_plugin", BRING_DOMAIN)])

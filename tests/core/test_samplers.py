@@ -1,3 +1,5 @@
+import math
+
 import numpy as np
 import pytest
 import toy_world
@@ -127,3 +129,45 @@ def test_noise_never_makes_an_action_that_its_skill_forbids():
     for i in range(3):
         assert i in batch.errors or 0 <= batch.plan(i)[0].args[0] <= 1
     assert batch.plan(1)[0].args == (0.5,)
+
+
+NAMES = ("cup", "can")
+PICK = Signature(
+    "pick",
+    (Parameter("o", "object", choices=NAMES), Parameter("g", "grasp", noise=0.01, turn_noise=0.1)),
+)
+PLACE = Signature(
+    "place",
+    (*PICK.params, Parameter("p", "pose", noise=0.02)),
+)
+GRASP, SPOT = Pose(0.01, 0.0, 0.005, 0.0, math.pi, 0.4), Pose(0.1, -0.5, 0.03)
+CARRY = [("pick", "cup", GRASP), ("place", "cup", GRASP, SPOT), ("pick", "can", GRASP)]
+
+
+@pytest.fixture
+def carry():
+    return Jitter(toy_world.columns((PICK, PLACE), [CARRY]))
+
+
+def test_a_grasp_of_one_object_is_perturbed_once_and_another_objects_grasp_by_itself(carry):
+    assert carry.space.dim == 6 + 3 + 6
+    first, second, third = carry.plans(np.random.default_rng(0).random((1, 15))).plan(0)
+    assert first.args[1] == second.args[1] != GRASP
+    assert third.args[1] not in (first.args[1], GRASP)
+
+
+def test_without_noise_poses_and_grasps_stay_to_the_bit(carry):
+    plan = carry.plans(np.full((1, 15), 0.5)).plan(0)
+    assert plan == toy_world.columns((PICK, PLACE), [CARRY]).plan(0)
+
+
+def test_poses_are_moved_in_their_own_frame(carry):
+    up = 0.8413447460685429  # one standard deviation
+    u = np.full((1, 15), 0.5)
+    u[0, 0] = u[0, 6] = up
+    pick, place, _ = carry.plans(u).plan(0)
+    # the grasp looks down (pitch pi): its x axis points back along its yaw
+    assert pick.args[1].x == pytest.approx(0.01 - 0.01 * math.cos(0.4))
+    assert pick.args[1].y == pytest.approx(-0.01 * math.sin(0.4))
+    assert pick.args[1].z == pytest.approx(0.005)
+    assert place.args[2] == Pose(*map(pytest.approx, (0.12, -0.5, 0.03, 0, 0, 0)))

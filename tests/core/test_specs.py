@@ -22,7 +22,17 @@ def test_a_field_is_required_unless_it_has_a_default_even_none():
     assert not FieldSpec(type="str", default=None).required
 
 
-@pytest.mark.parametrize("data", [{"type": "str"}, {"min": 2, "max": 1}, {"noise": -1}, {"type": "Pose"}])
+@pytest.mark.parametrize(
+    "data",
+    [
+        {"type": "str"},
+        {"min": 2, "max": 1},
+        {"noise": -1},
+        {"type": "Pose"},
+        {"type": "object", "noise": 1},
+        {"type": "point", "turn_noise": 1},
+    ],
+)
 def test_a_parameter_that_cannot_be(data):
     with pytest.raises(ValidationError):
         ParamSpec(**data)

@@ -1,5 +1,6 @@
 """The boxed sketch: a program of a language model, loaded in a locked worker process of its own."""
 
+import itertools
 import json
 import weakref
 from dataclasses import dataclass
@@ -113,10 +114,10 @@ class BoxedSketch:
         self._next_sample = first + len(u)
         return self._checked(self._columns.batch(replies), replies)
 
-    def values(self, u_row: FloatArray) -> dict[str, float | int | str | bool]:
+    def values(self, u_row: FloatArray) -> dict[str, float | int | str | bool | tuple[float, ...]]:
         """What the parameters of gen_plan are at one point of the cube, by name."""
-        columns = self.space.decode(u_row.reshape(1, -1))[0].tolist()
-        return {p.name: p.value(column) for p, column in zip(self._parameters, columns, strict=True)}
+        columns = iter(self.space.decode(u_row.reshape(1, -1))[0].tolist())
+        return {p.name: p.value([*itertools.islice(columns, len(p.centre))]) for p in self._parameters}
 
     def _checked(self, batch: PlanBatch, replies: Replies) -> PlanBatch:
         if len(batch) < replies.done:
@@ -133,7 +134,7 @@ class BoxedSketch:
             contents = self._contents(_request(self._program, self._limits, friendly))
             self.log = clean(contents.log, self._limits.printed)
             parameters, issues = open_parameters(contents, self._program.samplers, self._source)
-            body = json.dumps([p.centre for p in parameters]).encode()
+            body = json.dumps([number for p in parameters for number in p.centre]).encode()
             _, answer = self._channel.ask(PROBE, body, PROBED, self._limits.call, "one call of gen_plan")
             problems = contents.problems + parse(PROBLEMS, answer)
         except Malformed as error:

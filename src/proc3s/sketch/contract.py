@@ -24,15 +24,18 @@ class OpenParameter:
     choices: tuple[Scalar, ...] = ()
 
     @property
-    def centre(self) -> float | None:
+    def centre(self) -> list[float | None]:
         """The value in the middle of the cube, as it crosses."""
         if self.sampler is None:
-            return None
-        return float(self.sampler.decode(np.full((1, self.sampler.dim), 0.5))[0, 0])
+            return [None]
+        centre: list[float | None] = self.sampler.decode(np.full((1, self.sampler.dim), 0.5))[0].tolist()
+        return centre
 
-    def value(self, column: float) -> Scalar:
-        """What gen_plan gets for a number that crosses."""
-        return self.choices[int(column)] if self.choices else column
+    def value(self, columns: list[float]) -> Scalar | tuple[float, ...]:
+        """What gen_plan gets for the numbers that cross; several as they are."""
+        if self.choices:
+            return self.choices[int(columns[0])]
+        return columns[0] if len(columns) == 1 else tuple(columns)
 
 
 def open_parameters(

@@ -32,6 +32,8 @@ class Parameter:
     sampler: str | None = None
     args: dict[str, Any] = field(default_factory=dict)
     choices: list[Any] | None = None
+    made: str | None = None
+    """The class that the numbers of the sampler become."""
 
 
 class Inspector:
@@ -141,8 +143,11 @@ def _read_sampler(value: Any, parameter: Parameter, samplers: Mapping[str, Mappi
     for key, kind in samplers[name]["params"].items():
         args[key] = (_values if kind == "list" else _bound)(getattr(value, key, None), key)
     parameter.sampler, parameter.args = name, args
-    if samplers[name]["gives"] == "choice":
+    gives = samplers[name]["gives"]
+    if gives == "choice":
         parameter.choices = next(iter(args.values()))
+    elif gives != "float":
+        parameter.made = gives
 
 
 def _bound(value: Any, key: str) -> float:

@@ -36,7 +36,7 @@ class Program:
         self._random = "rand" in request["source"]
         self._call: Callable[[Row], Any] | None = None
         self.parameters: list[Parameter] = []
-        prelude = self._prelude(request)
+        prelude = self._prelude_names = self._prelude(request)
         self._inspector = Inspector(Lines(self._parse(request["source"])), request["samplers"])
         self._names = new_module("program", program_names(prelude, importable, request["friendly"]))
         self._action = prelude["Action"]
@@ -44,6 +44,12 @@ class Program:
         with noting_lines(self._action, FILENAME, spread=self.answer == "plan") as self._made:
             self._execute(request["source"])
         self._define()
+
+    @property
+    def width(self) -> int:
+        """How many numbers a row has."""
+        made = (self._prelude_names[p.made].__match_args__ for p in self.parameters if p.made)
+        return len(self.parameters) + sum(len(fields) - 1 for fields in made)
 
     @property
     def problems(self) -> list[Problem]:
@@ -120,7 +126,7 @@ class Program:
                 text = f"gen_plan must take the state and nothing else, not {', '.join(required)}"
                 self._inspector.add(text, "gen_plan")
         if gen_plan is not None:
-            self._call = _caller(gen_plan, self._new_state, self.parameters)
+            self._call = _caller(gen_plan, self._new_state, self.parameters, self._prelude_names)
 
     def _define_constant(self, gen_plan: Any) -> None:
         if gen_plan is None or callable(gen_plan):
@@ -162,20 +168,31 @@ class _Positional(ast.NodeTransformer):
 
 
 def _caller(
-    gen_plan: Callable[..., Any], new_state: Callable[[], Any], parameters: list[Parameter]
+    gen_plan: Callable[..., Any],
+    new_state: Callable[[], Any],
+    parameters: list[Parameter],
+    classes: Mapping[str, Any],
 ) -> Callable[[Row], Any]:
-    """gen_plan as a function of a row: indices become choices, and some parameters cross by keyword."""
-    choices = [(column, p.choices) for column, p in enumerate(parameters) if p.choices]
+    """gen_plan as a function of a row: indices become choices, several numbers an object of a class, and
+    some parameters cross by keyword."""
+    choices = [(at, p.choices) for at, p in enumerate(parameters) if p.choices]
+    # from the last on, so that those before keep their places
+    made = [(at, classes[p.made]) for at, p in reversed([*enumerate(parameters)]) if p.made]
     names = [p.name for p in parameters if p.by_keyword]
     positional = len(parameters) - len(names)
+    widths = [len(classes[p.made].__match_args__) if p.made else 1 for p in parameters]
+    starts = [sum(widths[:at]) for at in range(len(widths))]
 
     def call(row: Row) -> Any:
         args = list(row)
-        for column, values in choices:
-            args[column] = values[int(args[column])]
+        for at, make in made:
+            start, stop = starts[at], starts[at] + widths[at]
+            args[start:stop] = [make(*args[start:stop])]
+        for at, values in choices:
+            args[at] = values[int(args[at])]
         return gen_plan(new_state(), *args[:positional], **dict(zip(names, args[positional:], strict=True)))
 
-    return call if choices or names else lambda row: gen_plan(new_state(), *row)
+    return call if choices or names or made else lambda row: gen_plan(new_state(), *row)
 
 
 def describe(error: BaseException, kind: str) -> dict[str, Any]:

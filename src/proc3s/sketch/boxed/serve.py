@@ -100,7 +100,7 @@ class Server:
             return _frame(0, ERROR, self._fault(error.__cause__ or error, error.stage))
         except BaseException as error:
             return _frame(0, ERROR, self._fault(error))
-        self.columns = struct.Struct(f"<{max(1, len(self.program.parameters))}d")
+        self.columns = struct.Struct(f"<{max(1, self.program.width)}d")
         reply = _frame(0, LOADED, self._contents())
         if len(reply) <= request["frame"]:
             return reply
@@ -120,11 +120,11 @@ class Server:
     def answer(self, body: bytes) -> None:
         """One reply for each row, written at once."""
         (sample,) = FIRST_SAMPLE.unpack_from(body)
-        parameters = len(self.program.parameters)
+        width = self.program.width
         plan, encode, output = self.program.plan, self.program.encoder.encode, self.output
         for row in self.columns.iter_unpack(body[FIRST_SAMPLE.size :]):
             try:
-                actions = plan(sample, row[:parameters])
+                actions = plan(sample, row[:width])
                 try:
                     numbers, values = encode(actions)
                 except Exception as error:
