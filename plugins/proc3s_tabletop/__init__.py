@@ -6,7 +6,7 @@ constraints by `use: [pick, place, kinematic, collision, grasp, placement]`.
 
 from collections.abc import Callable
 
-from proc3s import ConstraintSpec, SkillSpec, hookimpl
+from proc3s import ConstraintSpec, SamplerSpec, SkillSpec, hookimpl
 from proc3s.specs import ParamSpec
 
 NOISE = 1.0
@@ -39,6 +39,21 @@ def register_skills(register: Callable[[SkillSpec], None]) -> None:
 def _point(z: str) -> dict[str, ParamSpec]:
     axes = {"x": "", "y": "", "z": z}
     return {name: ParamSpec(type="float", unit="m", says=says, noise=NOISE) for name, says in axes.items()}
+
+
+@hookimpl
+def register_samplers(register: Callable[[SamplerSpec], None]) -> None:
+    """Grasps, for skills that name an object and how to grasp it."""
+    register(
+        SamplerSpec(
+            name="GraspSampler",
+            target="proc3s_tabletop.grasp_sampler:GraspSampler",
+            summary="A grasp from above in the frame of an object, as an ArrangePose: at most 0.02 m from "
+            "its centre along x and along y, any yaw.",
+            params={},
+            gives="ArrangePose",
+        )
+    )
 
 
 @hookimpl

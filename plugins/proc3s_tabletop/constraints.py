@@ -9,15 +9,13 @@ from collections.abc import Iterator, Mapping
 from typing import Any, TypeAlias
 
 from proc3s import Margin, Transition
-from proc3s_tabletop.recipe import Recipe
+from proc3s_tabletop.recipe import LEVER, Recipe
 from proc3s_tabletop.telemetry import Displacement, Telemetry
 from proc3s_tabletop.things import TABLE
 
 Step: TypeAlias = Transition[Telemetry]
 
 RECIPE = Recipe()
-LEVER = 0.04
-"""A turn in rad times this is the way of a point at the far side of an object, m."""
 PAD_WIDTH = 0.018
 """What the grid of rays between the pads spans, m: turns its share that is met into a distance."""
 UNMEASURED = 1e-3
@@ -65,6 +63,9 @@ def grasp(step: Step) -> Margin | None:
         return Margin(-_lack(step), {"why": _why_no_grasp(step)})
     if measured.held is None:
         return Margin(-UNMEASURED, {"why": "the hand comes up empty"})
+    if measured.wanted not in (None, measured.held):
+        other, wanted = thing(step, measured.held), thing(step, str(measured.wanted))
+        return Margin(-UNMEASURED, {"why": f"the fingers close on {other} instead of {wanted}"})
     why = f"{thing(step, measured.held)} slips in the fingers"
     return Margin(min(_spare(measured)), {"why": why})
 
@@ -83,6 +84,8 @@ def placement(step: Step, moved: float, turned: float, lowest: float) -> Margin 
     measured = step.telemetry
     if step.action.skill == "place" and measured.target is None and measured.ended in (None, "hand"):
         return Margin(-UNMEASURED, {"why": "there is nothing in the hand to set down"})
+    if step.action.skill == "place" and measured.ended == "hand":
+        return Margin(-max(UNMEASURED, measured.grasp_apart or 0.0), {"why": _not_held_so(step)})
     if measured.ended and measured.ended != "support":
         return None
     height = measured.support_height
@@ -181,12 +184,24 @@ def _lack(step: Step) -> float:
 
 
 def _nearest(step: Step) -> tuple[str | None, float]:
-    """The object whose centre is nearest to the commanded point, and its distance, m."""
-    point = [float(value) for value in step.action.args]  # type: ignore[arg-type]
+    """The object whose centre is nearest to the commanded point, or that the action names, and its
+    distance, m."""
     objects: Any = getattr(step.before, "objects", {})
+    if step.telemetry.wanted is not None:
+        grasp: Any = step.action.args[1]
+        return step.telemetry.wanted, math.hypot(grasp.x, grasp.y, grasp.z)
+    point = [float(value) for value in step.action.args]  # type: ignore[arg-type]
     found = {name: math.dist(point, (o.pose.x, o.pose.y, o.pose.z)) for name, o in objects.items()}
     name = min(found, key=lambda n: found[n], default=None)
     return name, found[name] if name else PAD_WIDTH
+
+
+def _not_held_so(step: Step) -> str:
+    """Why a place that names an object and a grasp cannot begin."""
+    held, wanted = (thing(step, str(name)) for name in (step.telemetry.target, step.telemetry.wanted))
+    if held != wanted:
+        return f"the hand holds {held}, not {wanted}"
+    return f"the hand holds {held} by another grasp than the place names"
 
 
 def _bounds(step: Step) -> Margin:

@@ -9,7 +9,7 @@ from proc3s import FloatArray
 from proc3s_tabletop.attempt import Attempt, Stopped
 from proc3s_tabletop.bodies import Body
 from proc3s_tabletop.contacts import grip_force, hand_clearances
-from proc3s_tabletop.motion import line_down, top_down
+from proc3s_tabletop.motion import line_down
 from proc3s_tabletop.motors import ITERATIONS, Motors
 from proc3s_tabletop.pressing import Guard, between_pads, support
 from proc3s_tabletop.settling import compare, note_bounds, settle
@@ -33,23 +33,22 @@ class Execution(Table):
     Nothing is refused but a target out of reach: what a plan breaks shows in where things end up.
     """
 
-    def pick(self, x: float, y: float, z: float) -> Telemetry:
+    def pick_at(self, grasp: FloatArray) -> Telemetry:
         """Open the hand, go down, close it, and lift whatever is in it."""
-        return self._carry_out(pick, x, y, z)
+        return self._carry_out(pick, grasp)
 
-    def place(self, x: float, y: float, z: float) -> Telemetry:
+    def place_at(self, grasp: FloatArray) -> Telemetry:
         """Go down until the hand or its load meets something, open it, and leave."""
-        return self._carry_out(place, x, y, z)
+        return self._carry_out(place, grasp)
 
-    def _carry_out(
-        self, action: Callable[[Attempt, FloatArray], None], x: float, y: float, z: float
-    ) -> Telemetry:
+    def _carry_out(self, action: Callable[[Attempt, FloatArray], None], grasp: FloatArray) -> Telemetry:
         """Run an action from the snapshot and keep where it led to."""
+        x, y = grasp[:2, 3].tolist()
         self.scene.load(self.snapshot)
         self.scene.set_iterations(ITERATIONS)
         attempt = Attempt(self.scene)
         try:
-            action(attempt, top_down(x, y, z))
+            action(attempt, grasp)
         except Stopped:
             note_bounds(attempt, self.snapshot, x, y)
             return attempt.telemetry

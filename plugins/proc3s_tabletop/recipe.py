@@ -17,6 +17,13 @@ TOP_DOWN_YAW = math.pi / 2
 """Turn of a top-down grasp about z, rad: the fingers open along y."""
 
 
+LEVER = 0.04
+"""A turn in rad times this is the way of a point at the far side of an object, m."""
+
+SAME_GRASP = 1e-3
+"""A place whose grasp is further from that of its pick names another one, m; a rad counts 40 mm."""
+
+
 @dataclass(frozen=True)
 class Recipe:
     """How actions are carried out. Measured: with these values the world agrees with itself best.

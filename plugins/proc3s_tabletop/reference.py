@@ -8,9 +8,8 @@ from proc3s import FloatArray
 from proc3s_tabletop.attempt import Attempt, Stopped
 from proc3s_tabletop.bodies import Body
 from proc3s_tabletop.grasping import pick
-from proc3s_tabletop.motion import top_down
 from proc3s_tabletop.placing import place
-from proc3s_tabletop.recipe import Recipe
+from proc3s_tabletop.recipe import SAME_GRASP, Recipe
 from proc3s_tabletop.settling import note_bounds
 from proc3s_tabletop.table import Table
 from proc3s_tabletop.telemetry import Telemetry
@@ -30,22 +29,28 @@ class Reference(Table):
         super().__init__(bodies, frames, recipe)
         self._bench = Workbench(bodies, self.scene.recipe)
 
-    def pick(self, x: float, y: float, z: float) -> Telemetry:
+    def pick_at(self, grasp: FloatArray) -> Telemetry:
         """Grasp and lift; ends early where that fails."""
-        return self._carry_out(functools.partial(pick, bench=self._bench), x, y, z)
+        return self._carry_out(functools.partial(pick, bench=self._bench), grasp)
 
-    def place(self, x: float, y: float, z: float) -> Telemetry:
+    def place_at(self, grasp: FloatArray) -> Telemetry:
         """Set down and leave; ends early where that fails."""
-        return self._carry_out(functools.partial(place, bench=self._bench), x, y, z)
+        return self._carry_out(functools.partial(place, bench=self._bench), grasp)
 
-    def _carry_out(
-        self, action: Callable[[Attempt, FloatArray], None], x: float, y: float, z: float
-    ) -> Telemetry:
+    def _refusal(self, name: str, apart: float | None) -> Telemetry | None:
+        """A place needs that object in hand, by that grasp."""
+        held = self.snapshot.held.name if self.snapshot.held else None
+        if held is None or (held == name and apart is not None and apart <= SAME_GRASP):
+            return None
+        return Telemetry(ended="hand", target=held, held=held, wanted=name, grasp_apart=apart)
+
+    def _carry_out(self, action: Callable[[Attempt, FloatArray], None], grasp: FloatArray) -> Telemetry:
         """Run an action from the snapshot; keep where it led to if it came to its end."""
+        x, y = grasp[:2, 3].tolist()
         self.scene.load(self.snapshot)
         attempt = Attempt(self.scene)
         try:
-            action(attempt, top_down(x, y, z))
+            action(attempt, grasp)
         except Stopped:
             note_bounds(attempt, self.snapshot, x, y)
             return attempt.telemetry

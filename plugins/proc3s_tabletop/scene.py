@@ -25,6 +25,8 @@ class Snapshot:
     angle: float = 0.0
     held: Held | None = None
     linkage: tuple[float, ...] = ()
+    grasp: tuple[float, ...] = ()
+    """The six numbers of the grasp, in the frame of the object, that a pick named with the object."""
 
     def after(self, before: "Snapshot") -> "Snapshot":
         """The same, but what has hardly moved since `before` is where it was: nothing creeps."""

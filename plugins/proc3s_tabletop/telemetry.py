@@ -65,6 +65,10 @@ class Telemetry:
     ended: Stage | None = None
     target: str | None = None
     """The object the action is about: found between the fingers, or in hand at the start of a place."""
+    wanted: str | None = None
+    """The object that the action names, where skills name objects."""
+    grasp_apart: float | None = None
+    """How far the grasp that a place names is from that of the pick, m; a rad counts 40 mm."""
     held: str | None = None
     """What the hand holds when the action is over."""
     ik_residual: float | None = None

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from proc3s import Plan, State, World
+from proc3s import Plan, Pose, State, World
 from proc3s_tabletop import poses
 from proc3s_tabletop.bodies import Body
 from proc3s_tabletop.body_specs import bodies_of, body_of
@@ -135,3 +135,15 @@ def pick(world: TabletopWorld, x: float, y: float, z: float) -> Telemetry:
 def place(world: TabletopWorld, x: float, y: float, z: float) -> Telemetry:
     """The skill: set down what is held over a point in metres, and let go."""
     return world.table.place(*world.placed(x, y, z))
+
+
+def pick_object(world: TabletopWorld, o: str, g: Pose) -> Telemetry:
+    """The skill: grasp an object by a pose of the grasp point in its frame, wherever it is now, and lift."""
+    return world.table.pick_object(o, np.array(dataclasses.astuple(g)))
+
+
+def place_object(world: TabletopWorld, o: str, g: Pose, p: Pose) -> Telemetry:
+    """The skill: bring an object that is held by a grasp to a pose of the world, and let go."""
+    x, y, z = world.placed(p.x, p.y, p.z)
+    pose = np.array([x, y, z, p.roll, p.pitch, p.yaw])
+    return world.table.place_object(o, np.array(dataclasses.astuple(g)), pose)

@@ -58,8 +58,14 @@ def _state_class(name: str, spec: TypeSpec) -> str:
 
 
 def _methods(target: str) -> str:
-    """The source of a class without its head: what it defines, still indented."""
-    source = inspect.getsource(Target(target=target).load())
+    """What a class and those it derives from define, still indented."""
+    classes = [c for c in Target(target=target).load().__mro__ if c is not object]
+    return "\n".join(_defined(c, target) for c in reversed(classes))
+
+
+def _defined(cls: type, target: str) -> str:
+    """The source of a class without its head."""
+    source = inspect.getsource(cls)
     body = ast.parse(source).body[0]
     assert isinstance(body, ast.ClassDef)
     first = min(node.lineno - len(node.decorator_list) for node in _functions(body, target))
