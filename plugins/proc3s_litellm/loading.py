@@ -2,6 +2,7 @@
 
 import logging
 import os
+import platform
 import warnings
 from typing import Any
 
@@ -20,6 +21,8 @@ def load_litellm() -> Any:
     os.environ.update(_QUIET)
     for name in _LOGGERS:
         logging.getLogger(name).disabled = True
+    # The SDK of OpenAI asks for it, and Python would start `uname -p`, with all keys in its environment.
+    vars(platform.uname()).setdefault("processor", platform.machine())
     import litellm
 
     litellm.suppress_debug_info = True

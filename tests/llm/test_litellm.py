@@ -224,9 +224,9 @@ def test_the_key_of_openai_goes_to_nobody_else(monkeypatch, provider, model, var
 
 
 def test_what_litellm_cannot_do_without_another_package_is_said(provider, monkeypatch):
-    monkeypatch.setitem(sys.modules, "mcp", None)
-    with pytest.raises(LLMError, match="module mcp"):
-        LiteLLM("openai/gpt-5-pro", Options(api_base=provider.address)).complete(request())
+    monkeypatch.setitem(sys.modules, "google", None)
+    with pytest.raises(LLMError, match="module google"):
+        LiteLLM("vertex_ai/gemini-1.5-pro", Options(api_base=provider.address)).complete(request())
 
 
 @pytest.mark.parametrize(
@@ -577,3 +577,17 @@ def test_a_fresh_process_stays_silent_at_home_and_ends_at_once(tmp_path: Path):
         assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
         assert len(server.asked) == 8 + len(faults)
     assert [path.name for path in tmp_path.iterdir()] == [".env"]
+
+
+def test_no_process_is_started_to_learn_what_machine_this_is():
+    code = """
+import subprocess
+from proc3s_litellm.loading import load_litellm
+load_litellm()
+def refuse(*args, **options): raise AssertionError(f"a process is started: {args}")
+subprocess.Popen.__init__ = refuse
+import platform
+platform.platform()
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, done.stderr
