@@ -2,9 +2,10 @@
 
 import dataclasses
 import itertools
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, model_validator
@@ -45,8 +46,8 @@ class Entry(BaseModel):
     """x and y of the region it is scattered over, m; the table less its margin otherwise."""
     at: tuple[float, float] | tuple[float, float, float] | None = None
     """x and y of its centre, m, and z where it stands on something."""
-    yaw: float = 0.0
-    """rad"""
+    yaw: float | Literal["any"] = 0.0
+    """rad, or `any`: each object is turned by chance."""
     on: Selector | None = None
     """It stands on one of these, drawn from those listed before it that have nothing on top."""
     chance: float = Field(1.0, ge=0, le=1)
@@ -82,13 +83,14 @@ class Placed:
     x: float
     y: float
     z: float
+    yaw: float
     below: int | None = None
     level: int = 0
 
     @property
     def pose(self) -> Pose:
         """Upright, where it stands."""
-        return Pose(self.x, self.y, self.z, yaw=self.entry.yaw)
+        return Pose(self.x, self.y, self.z, yaw=self.yaw)
 
 
 class _Jammed(Exception):
@@ -142,15 +144,16 @@ def _place(
     rng: np.random.Generator, entry: Entry, color: str, placed: Sequence[Placed], rules: Rules
 ) -> Placed:
     half = rules.bodies[entry.category].half_height
+    yaw = float(rng.uniform(-math.pi, math.pi)) if entry.yaw == "any" else entry.yaw
     if entry.at:
         x, y, *height = entry.at
-        return Placed(entry, color, x, y, height[0] if height else half)
+        return Placed(entry, color, x, y, height[0] if height else half, yaw)
     if entry.on is not None and rng.uniform() < entry.chance:
-        return _stacked(rng, entry, color, placed, rules)
+        return _stacked(rng, entry, color, yaw, placed, rules)
     for _ in range(DRAWS):
         x, y = rng.uniform(*np.transpose(_region(entry, rules))).tolist()
         if _free(entry, x, y, placed, rules):
-            return Placed(entry, color, x, y, half)
+            return Placed(entry, color, x, y, half, yaw)
     raise _Jammed(f"no room for object_{len(placed)} (a {entry.category})")
 
 
@@ -172,7 +175,7 @@ def _free(entry: Entry, x: float, y: float, placed: Sequence[Placed], rules: Rul
 
 
 def _stacked(
-    rng: np.random.Generator, entry: Entry, color: str, placed: Sequence[Placed], rules: Rules
+    rng: np.random.Generator, entry: Entry, color: str, yaw: float, placed: Sequence[Placed], rules: Rules
 ) -> Placed:
     """On top of something that `on` means; without anything left there, the scene is begun again."""
     assert entry.on
@@ -190,7 +193,8 @@ def _stacked(
     k = int(rng.choice(tops))
     below = placed[k]
     heights = [rules.bodies[e.category].half_height for e in (below.entry, entry)]
-    return Placed(entry, color, below.x, below.y, below.z + sum(heights) - SINK, k, below.level + 1)
+    z = below.z + sum(heights) - SINK
+    return Placed(entry, color, below.x, below.y, z, yaw, k, below.level + 1)
 
 
 def _objects(placed: Sequence[Placed]) -> Iterator[tuple[str, dict[str, Any]]]:

@@ -46,7 +46,7 @@ class Jitter:
         self._low = np.where(ranged, [p.low for p in columns], -np.inf)
         self._high = np.where(ranged, [p.high for p in columns], np.inf)
         self._rigid = [at for p, at in zip(params, starts, strict=True) if p.type in ("pose", "grasp")]
-        self._noise = np.concatenate([_noise(p) for p in params])
+        self._noise = np.array([scale for p in params for scale in _noise(p)], float)
         self._source = np.arange(len(columns))
         for repeat in _repeats(batch):
             self._source[repeat.again + _SIX] = repeat.first + _SIX

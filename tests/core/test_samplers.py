@@ -171,3 +171,9 @@ def test_poses_are_moved_in_their_own_frame(carry):
     assert pick.args[1].y == pytest.approx(-0.01 * math.sin(0.4))
     assert pick.args[1].z == pytest.approx(0.005)
     assert place.args[2] == Pose(*map(pytest.approx, (0.12, -0.5, 0.03, 0, 0, 0)))
+
+
+def test_a_plan_without_a_number_stays_as_it_is():
+    jitter = Jitter(toy_world.columns((Signature("tap", ()),), [[("tap",), ("tap",)]]))
+    assert jitter.space.dim == 0
+    assert jitter.plans(np.empty((2, 0))).plan(1) == (Action("tap", ()), Action("tap", ()))

@@ -152,3 +152,16 @@ def test_mistakes_of_bodies_are_named(name):
     body, message = BAD_BODIES[name]
     with pytest.raises(SpecError, match=message):
         made(0, [{"category": "cup"}], bodies={"cup": body})
+
+
+def test_objects_are_turned_by_chance_where_the_scene_says_so():
+    entries = [{"category": "block", "count": 3, "yaw": "any"}, {"category": "block", "yaw": 0.4}]
+    turns = [[o["pose"]["yaw"] for o in made(seed, entries).values()] for seed in (1, 1, 2)]
+    assert turns[0] == turns[1] != turns[2]
+    assert all(len({*some}) == 4 and some[3] == 0.4 for some in turns)
+    assert all(-math.pi <= turn <= math.pi for some in turns for turn in some)
+
+
+def test_a_yaw_is_a_number_or_any():
+    with pytest.raises(SpecError, match="yaw"):
+        made(0, [{"category": "block", "yaw": "some"}])
