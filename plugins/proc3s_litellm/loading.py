@@ -21,7 +21,7 @@ def load_litellm() -> Any:
     os.environ.update(_QUIET)
     for name in _LOGGERS:
         logging.getLogger(name).disabled = True
-    # The SDK of OpenAI asks for it, and Python would start `uname -p`, with all keys in its environment.
+    # The SDK of OpenAI asks for the processor: Python would start `uname -p`, all keys in its environment.
     vars(platform.uname()).setdefault("processor", platform.machine())
     import litellm
 

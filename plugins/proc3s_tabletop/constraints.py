@@ -146,21 +146,23 @@ def _is_bad_grasp(step: Step) -> bool:
     if step.action.skill != "pick":
         return False
     if measured.ended == "approach" and measured.clearance:
-        return measured.clearance.other == _nearest(step)[0]
+        return measured.clearance.other == _meant(step)[0]
     slipped = measured.ended == "close" and measured.grip_force is not None
     return slipped or measured.ended in ("hand", "grasp", "lift")
 
 
 def _why_no_grasp(step: Step) -> str:
     measured = step.telemetry
-    nearest = _nearest(step)[0]
+    meant = _meant(step)[0]
     if measured.ended == "hand":
         return f"the hand already holds {thing(step, str(measured.held))}"
     if measured.ended == "grasp" and not measured.cover:
-        hint = f"; the nearest object is {thing(step, nearest)}" if nearest else ""
+        if measured.wanted:
+            return f"the fingers miss {thing(step, measured.wanted)}"
+        hint = f"; the nearest object is {thing(step, meant)}" if meant else ""
         return f"nothing is between the fingers{hint}"
     if measured.ended == "approach":
-        return f"the fingers come down on {thing(step, str(nearest))} instead of around it"
+        return f"the fingers come down on {thing(step, str(meant))} instead of around it"
     what = thing(step, str(measured.target))
     if measured.ended == "grasp":
         return f"the fingers get too little of {what} between them"
@@ -175,7 +177,7 @@ def _lack(step: Step) -> float:
     if measured.ended == "grasp" and measured.cover:
         return max(UNMEASURED, (RECIPE.min_cover - measured.cover) * PAD_WIDTH)
     if measured.ended == "grasp":
-        return max(RECIPE.min_cover * PAD_WIDTH, _nearest(step)[1])
+        return max(RECIPE.min_cover * PAD_WIDTH, _meant(step)[1])
     if measured.ended == "lift":
         return max(RECIPE.touch, -min(_spare(measured)))
     if measured.ended == "approach" and measured.clearance:
@@ -183,9 +185,9 @@ def _lack(step: Step) -> float:
     return UNMEASURED
 
 
-def _nearest(step: Step) -> tuple[str | None, float]:
-    """The object whose centre is nearest to the commanded point, or that the action names, and its
-    distance, m."""
+def _meant(step: Step) -> tuple[str | None, float]:
+    """The object that the action names, or whose centre is nearest to the commanded point, and how far that
+    is from it, m."""
     objects: Any = getattr(step.before, "objects", {})
     if step.telemetry.wanted is not None:
         grasp: Any = step.action.args[1]

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from proc3s import FloatArray
+from proc3s.transforms import matrices
 from proc3s_tabletop.bodies import Body
 
 
@@ -35,12 +36,7 @@ def extent(body: Body, pose: Any) -> Extent:
 
 def rotation(roll: float, pitch: float, yaw: float) -> FloatArray:
     """The matrix (3, 3) of turns about the fixed axes x, y and z."""
-    (cr, sr), (cp, sp), (cy, sy) = ((math.cos(a), math.sin(a)) for a in (roll, pitch, yaw))
-    about_x = np.array([[1, 0, 0], [0, cr, -sr], [0, sr, cr]])
-    about_y = np.array([[cp, 0, sp], [0, 1, 0], [-sp, 0, cp]])
-    about_z = np.array([[cy, -sy, 0], [sy, cy, 0], [0, 0, 1]])
-    turn: FloatArray = about_z @ about_y @ about_x
-    return turn
+    return matrices(np.array([0.0, 0.0, 0.0, roll, pitch, yaw]))[:3, :3]
 
 
 def gap(a: FloatArray, b: FloatArray) -> float:

@@ -59,8 +59,7 @@ class Table(ABC):
 
     def pick_object(self, name: str, grasp: FloatArray) -> Telemetry:
         """Grasp an object by a pose (6,) of the grasp point in its frame, wherever it is now."""
-        numbers = poses.numbers(dict(self.snapshot.frames)[name])
-        here = np.array([numbers[n] for n in ("x", "y", "z", "roll", "pitch", "yaw")])
+        here = np.array([*poses.numbers(dict(self.snapshot.frames)[name]).values()])
         telemetry = self.pick_at(matrices(here) @ matrices(grasp))
         if telemetry.held is not None and not telemetry.ended:
             self.snapshot = dataclasses.replace(self.snapshot, grasp=tuple(grasp.tolist()))

@@ -46,13 +46,12 @@ class Jitter:
         self._low = np.where(ranged, [p.low for p in columns], -np.inf)
         self._high = np.where(ranged, [p.high for p in columns], np.inf)
         self._rigid = [at for p, at in zip(params, starts, strict=True) if p.type in ("pose", "grasp")]
-        self._noise = np.array([scale for p in params for scale in _noise(p)], float)
         self._source = np.arange(len(columns))
         for repeat in _repeats(batch):
             self._source[repeat.again + _SIX] = repeat.first + _SIX
-        own = np.flatnonzero((self._noise > 0) & (self._source == np.arange(len(columns))))
-        self._own = own
-        self.space = Space({f"number_{i}": Normal(float(self._noise[i])) for i in own.tolist()})
+        noise = np.array([scale for p in params for scale in _noise(p)], float)
+        self._own = np.flatnonzero((noise > 0) & (self._source == np.arange(len(columns))))
+        self.space = Space({f"number_{i}": Normal(float(noise[i])) for i in self._own.tolist()})
 
     def plans(self, u: FloatArray, first: int = 0) -> PlanBatch:
         """Perturbed plans, one for each row of u; their numbers change nothing."""

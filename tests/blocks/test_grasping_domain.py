@@ -3,8 +3,7 @@
 from pathlib import Path
 
 import pytest
-
-from blocks.test_own_domain import DOMAIN, PLUGIN
+from test_own_domain import DOMAIN, PLUGIN
 
 DOCS = Path(__file__).parents[2] / "docs" / "how-to" / "table-top-task.md"
 SKILLS = (

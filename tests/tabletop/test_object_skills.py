@@ -108,7 +108,7 @@ REFUSED = {
     ),
     "a grasp beside the object": (
         [pick("object_0", dataclasses.replace(DOWN, x=0.06))],
-        "the grasp fails: nothing is between the fingers; the nearest object is object_0 (the red block)",
+        "the grasp fails: the fingers miss object_0 (the red block)",
     ),
     "a grasp that ends on another object": (
         [pick("object_0", dataclasses.replace(DOWN, x=0.3 * math.cos(0.5), y=-0.3 * math.sin(0.5)))],
