@@ -2,9 +2,10 @@
 
 import logging
 import os
-import platform
 import warnings
 from typing import Any
+
+from proc3s import platform_name
 
 _QUIET = {
     # Each of these keeps it from fetching a list from the network.
@@ -21,8 +22,7 @@ def load_litellm() -> Any:
     os.environ.update(_QUIET)
     for name in _LOGGERS:
         logging.getLogger(name).disabled = True
-    # The SDK of OpenAI asks for the processor: Python would start `uname -p`, all keys in its environment.
-    vars(platform.uname()).setdefault("processor", platform.machine())
+    platform_name()  # The SDK of OpenAI will ask for it.
     import litellm
 
     litellm.suppress_debug_info = True

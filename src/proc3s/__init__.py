@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from proc3s.rollouts import Rollouts as Rollouts
     from proc3s.samplers import Sampler as Sampler
     from proc3s.samplers import Space as Space
+    from proc3s.secrets import platform_name as platform_name
     from proc3s.secrets import redacted as redacted
     from proc3s.secrets import without_secrets as without_secrets
     from proc3s.solving import Solver as Solver
@@ -81,7 +82,7 @@ _WHERE = {
     "plugins": ("import_loose_file", "loose_files"),
     "rollouts": ("Rollouts",),
     "samplers": ("Sampler", "Space"),
-    "secrets": ("redacted", "without_secrets"),
+    "secrets": ("platform_name", "redacted", "without_secrets"),
     "solving": ("Solver",),
     "specfile": ("load_domain",),
     "specs": (

@@ -24,6 +24,7 @@ from proc3s.events import (
 )
 from proc3s.llms import Message
 from proc3s.plugins import GROUP
+from proc3s.secrets import platform_name
 
 LOG = "events.jsonl"
 
@@ -119,7 +120,7 @@ def versions() -> dict[str, str]:
     plugins = {e.dist.name: e.dist for e in entry_points(group=GROUP) if e.dist}
     texts = (text.partition(";") for plugin in plugins.values() for text in plugin.requires or ())
     required = {re.split(r"[^\w.-]", need, maxsplit=1)[0] for need, _, when in texts if "dev" not in when}
-    found = {"python": platform.python_version(), "platform": platform.platform()}
+    found = {"python": platform.python_version(), "platform": platform_name()}
     for name in sorted({*plugins, *required}):
         with contextlib.suppress(PackageNotFoundError):
             found[name] = version(name)

@@ -1,6 +1,7 @@
 """Keys in the environment: no child process gets them, no message shows them."""
 
 import os
+import platform
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -18,6 +19,13 @@ def without_secrets() -> Iterator[None]:
         yield
     finally:
         os.environ.update(taken)
+
+
+def platform_name() -> str:
+    """What `platform.platform()` says, without the process `uname -p` that Python starts for it once, which
+    would have every secret in its environment. Later callers in this process start none either."""
+    vars(platform.uname()).setdefault("processor", "")
+    return platform.platform()
 
 
 def redacted(text: str) -> str:

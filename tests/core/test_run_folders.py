@@ -1,4 +1,7 @@
 import json
+import platform
+import subprocess
+import sys
 
 import pytest
 
@@ -138,3 +141,16 @@ def test_new_folders_do_not_collide(tmp_path):
 
 def test_versions_name_python_and_proc3s():
     assert {"python", "platform", "proc3s", "numpy"} <= set(versions())
+
+
+def test_no_process_that_would_inherit_keys_is_started_to_name_the_platform():
+    code = """
+import subprocess
+def refuse(*args, **options): raise AssertionError(f"a process is started: {args}")
+subprocess.Popen.__init__ = refuse
+from proc3s.runs import versions
+print(versions()["platform"])
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0, done.stderr
+    assert platform.machine() in done.stdout
