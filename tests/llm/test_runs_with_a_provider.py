@@ -169,23 +169,27 @@ def test_a_key_is_nowhere(background, eventually, provider, here, monkeypatch):
     flags = ("--jobs", 2, "--no-screens", "--preset", "paper", "--samples", 200_000, "--record", "tape")
     llm = ("--llm", "openai/tiny", "-L", f"api_base={provider.address}")
     with background("run", "drawing/letters", *llm, *flags, "--out", "r") as process:
-        listed, seen = set(), set()
+        listed, seen, forked = set(), set(), set()
 
         def children():
+            own = Path(f"/proc/{process.pid}/cmdline").read_bytes()
             for path in Path(f"/proc/{process.pid}/task").glob("*/children"):
                 listed.update(map(int, path.read_text().split()))
             for pid in listed:
                 try:
-                    environ = Path(f"/proc/{pid}/environ").read_bytes()
                     command = Path(f"/proc/{pid}/cmdline").read_bytes()
+                    environ = Path(f"/proc/{pid}/environ").read_bytes()
                 except OSError:
                     continue
-                assert SECRET.encode() not in environ + command
+                # until it starts a program, a child is a copy of the run itself; it must not stay one
+                (forked.add if command == own else forked.discard)(pid)
+                assert command == own or SECRET.encode() not in environ + command
                 if b"spawn_main" in command:
                     seen.add(pid)
             return process.poll() is not None or len(seen) >= 2
 
         eventually(children, 60)
+        eventually(lambda: children() and not any(Path(f"/proc/{pid}").exists() for pid in forked))
         assert SECRET.encode() not in Path(f"/proc/{process.pid}/cmdline").read_bytes()
         process.terminate()
         stdout, stderr = process.communicate(timeout=60)
