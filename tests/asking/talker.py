@@ -5,6 +5,7 @@ a completion, or with a `fault`. The count of calls goes on from process to proc
 """
 
 import json
+import threading
 import time
 from pathlib import Path
 
@@ -15,14 +16,12 @@ class Talker(LLM):
     def __init__(self, path, options):
         self._script = Path(path)
         self._asked = self._script.with_suffix(".asked")
+        self._turn = threading.Lock()
         cheap = self._script.with_suffix(".price")
         self.price = Price.model_validate_json(cheap.read_text()) if cheap.exists() else None
 
     def complete(self, request):
-        with self._asked.open("a") as file:
-            file.write(request.model_dump_json() + "\n")
-        calls = len(self._asked.read_text().splitlines())
-        entry = json.loads(self._script.read_text())[calls - 1]
+        entry = self._next_entry(request)
         if isinstance(entry, dict) and "wrong" in entry:
             return entry["wrong"]
         if not isinstance(entry, dict):
@@ -33,6 +32,14 @@ class Talker(LLM):
         finish = entry.pop("finish", "stop")
         candidates = tuple(Candidate(text=text, finish_reason=finish) for text in entry.pop("texts"))
         return Completion(candidates=candidates, model="talker-1", **entry)
+
+    def _next_entry(self, request):
+        """Calls that come at the same time take different entries."""
+        with self._turn:
+            with self._asked.open("a") as file:
+                file.write(request.model_dump_json() + "\n")
+            calls = len(self._asked.read_text().splitlines())
+        return json.loads(self._script.read_text())[calls - 1]
 
 
 @hookimpl
