@@ -37,7 +37,7 @@ def of_program(program: Program, story: Story) -> tuple[Pointer, ...]:
         found.append(
             Pointer(kind="screens", facts={"checked": program.audited[0], "wrong": program.audited[1]})
         )
-    given = {"file": program.file, "run": str(story.run)}
+    given = {"file": program.file if program.source is not None else "The answer", "run": str(story.run)}
     return tuple(Pointer(kind=p.kind, facts={**p.facts, **given}) for p in found)
 
 

@@ -7,6 +7,7 @@ from typing import Any
 
 import jinja2
 from jinja2.sandbox import ImmutableSandboxedEnvironment
+from markupsafe import Markup, escape
 
 from proc3s.errors import Issue, SpecError, UsageError
 from proc3s.registry import Registry
@@ -19,20 +20,20 @@ def folders_of(registry: Registry) -> tuple[Path, ...]:
 
 
 class Words:
-    """Renders report templates; with `escape` every value is escaped for HTML.
+    """Renders report templates; with `html` every value is escaped for HTML.
 
     Raises UsageError for a template that is missing, SpecError for one that does not render.
     """
 
-    def __init__(self, folders: Sequence[Path], escape: bool = False) -> None:
+    def __init__(self, folders: Sequence[Path], html: bool = False) -> None:
         self._environment = ImmutableSandboxedEnvironment(
             loader=jinja2.FileSystemLoader(folders),
             undefined=jinja2.StrictUndefined,
             trim_blocks=True,
             lstrip_blocks=True,
-            autoescape=escape,
+            autoescape=html,
         )
-        self._environment.filters |= {"number": number, "sampler": sampler}
+        self._environment.filters |= {"number": number, "sampler": sampler, "ticks": ticks}
 
     def render(self, name: str, **variables: Any) -> str:
         """The text of a template."""
@@ -54,6 +55,16 @@ def sampler(text: str) -> str:
     """How a parameter is sampled, its numbers to four digits and a long list cut."""
     text = _LONG_NUMBER.sub(lambda found: f"{float(found[0]):.4g}", text)
     return text if len(text) <= _LONG_SAMPLER else f"{text[: _LONG_SAMPLER - 1]}…"
+
+
+def ticks(text: str) -> Markup:
+    """A sentence as HTML, what stands in backticks as code, all of it escaped."""
+    parts = [escape(part) for part in text.split("`")]
+    if len(parts) % 2 == 0:
+        return escape(text)
+    return Markup("").join(
+        Markup("<code>{}</code>").format(part) if i % 2 else part for i, part in enumerate(parts)
+    )
 
 
 def number(value: Any) -> str:
