@@ -140,11 +140,10 @@ def test_a_browser_shows_the_page_and_asks_for_nothing(cli, here, hostile):
         assert visit.complaints == []
         assert visit.page.title() == "drawing/free, seed 0: a run of proc3s"
         assert visit.page.locator("p.quote").inner_text() == GOAL
-        visit.page.locator("details").first.click()
         widths = visit.page.eval_on_selector_all("img.chart", "all => all.map(one => one.naturalWidth)")
         assert len(widths) == 4
         assert min(widths) > 100
-        program = visit.page.locator("details[open] pre").first.inner_text()
+        program = visit.page.locator("section details[open] pre").first.inner_text()
         assert '</pre></style><script>document.title = "program"</script>' in program
         room = visit.page.evaluate("document.documentElement.scrollWidth - window.innerWidth")
         assert room <= 0, "the page is wider than the window"
