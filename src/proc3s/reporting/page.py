@@ -32,9 +32,7 @@ _LONGEST = 400_000
 def page(story: Story, folders: Sequence[Path]) -> str:
     """The page. Raises UsageError or SpecError for a template that is missing or does not render."""
     words = Words(folders, html=True)
-    css = words.render("report.css") + HtmlFormatter(style="friendly", nobackground=True).get_style_defs(
-        "pre"
-    )
+    css = words.render("report.css") + _highlighting()
     colors = charts.colors_of(sorted({v for p in story.programs for v in p.samples.violation if v}))
     return words.render(
         "report.j2",
@@ -50,6 +48,11 @@ def page(story: Story, folders: Sequence[Path]) -> str:
         versions=story.versions,
         began=story.began,
     )
+
+
+def _highlighting() -> str:
+    formatter: HtmlFormatter[str] = HtmlFormatter(style="friendly", nobackground=True)
+    return str(formatter.get_style_defs("pre"))  # type: ignore[no-untyped-call]
 
 
 def write(story: Story, folders: Sequence[Path], path: Path) -> None:
