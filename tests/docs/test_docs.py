@@ -70,7 +70,7 @@ def check_console(body: str, expected_exit: int, folder: Path) -> None:
         assert re.fullmatch(as_pattern(expected), output), f"{command}\nprinted\n{output}"
 
 
-SLOW = ("llm", "reading-a-failure", "table-top", "table-top-task")
+SLOW = ("llm", "switching-llms", "reading-a-failure", "table-top", "table-top-task")
 """Pages whose examples import litellm or simulate an arm, again and again."""
 
 

@@ -1,0 +1,46 @@
+"""What mkdocs calls while it builds the site: generated pages, pictures, and a place in the menu for all."""
+
+import re
+import sys
+from pathlib import Path
+from typing import Any
+
+from mkdocs.config.defaults import MkDocsConfig
+from mkdocs.structure.files import File, Files
+from mkdocs.structure.pages import Page
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+import gallery
+import reference
+
+_TITLED = re.compile(r"^<!-- file: (\S+) -->\n(`{3,})(\w+)$", re.MULTILINE)
+_SECTIONS = {"tutorial": "Tutorial", "how-to": "How to", "explanation": "Explanation", "reference": "Reference"}
+
+
+def on_config(config: MkDocsConfig) -> MkDocsConfig:
+    """Add pages that no section lists to that of their folder."""
+    sections: dict[str, list[Any]] = {}
+    for entry in config.nav or []:
+        if isinstance(entry, dict):
+            sections |= entry
+    listed = {page for pages in sections.values() for page in pages}
+    docs = Path(config.docs_dir)
+    for path in sorted(docs.glob("*/*.md")):
+        page = path.relative_to(docs).as_posix()
+        if page not in listed and path.parent.name in _SECTIONS:
+            sections[_SECTIONS[path.parent.name]].append(page)
+    return config
+
+
+def on_files(files: Files, config: MkDocsConfig) -> Files:
+    """Add what is made by the program: the reference, and a gallery of runs."""
+    made: dict[str, str | bytes] = {**reference.pages(), **gallery.files()}
+    for name, content in made.items():
+        files.append(File.generated(config, name, content=content))
+    return files
+
+
+def on_page_markdown(markdown: str, page: Page, config: MkDocsConfig, files: Files) -> str:
+    """Show the name of a file over its text, where the examples of a page write one."""
+    return _TITLED.sub(r'\2\3 title="\1"', markdown)
