@@ -15,7 +15,15 @@ import gallery
 import reference
 
 _TITLED = re.compile(r"^<!-- file: (\S+) -->\n(`{3,})(\w+)$", re.MULTILINE)
-_SECTIONS = {"tutorial": "Tutorial", "how-to": "How to", "explanation": "Explanation", "reference": "Reference"}
+_ROOT = Path(__file__).parents[2]
+_OF_ROOT = {"SECURITY.md": "security.md", "CHANGELOG.md": "changelog.md"}
+"""Files beside the docs that are pages of the site, too."""
+_SECTIONS = {
+    "tutorial": "Tutorial",
+    "how-to": "How to",
+    "explanation": "Explanation",
+    "reference": "Reference",
+}
 
 
 def on_config(config: MkDocsConfig) -> MkDocsConfig:
@@ -23,7 +31,7 @@ def on_config(config: MkDocsConfig) -> MkDocsConfig:
     sections: dict[str, list[Any]] = {}
     for entry in config.nav or []:
         if isinstance(entry, dict):
-            sections |= entry
+            sections |= {name: pages for name, pages in entry.items() if isinstance(pages, list)}
     listed = {page for pages in sections.values() for page in pages}
     docs = Path(config.docs_dir)
     for path in sorted(docs.glob("*/*.md")):
@@ -36,11 +44,16 @@ def on_config(config: MkDocsConfig) -> MkDocsConfig:
 def on_files(files: Files, config: MkDocsConfig) -> Files:
     """Add what is made by the program: the reference, and a gallery of runs."""
     made: dict[str, str | bytes] = {**reference.pages(), **gallery.files()}
+    made |= {page: (_ROOT / name).read_text(encoding="utf-8") for name, page in _OF_ROOT.items()}
     for name, content in made.items():
         files.append(File.generated(config, name, content=content))
     return files
 
 
 def on_page_markdown(markdown: str, page: Page, config: MkDocsConfig, files: Files) -> str:
-    """Show the name of a file over its text, where the examples of a page write one."""
+    """Show the name of a file over its text, where examples write one; lead to pages instead of files."""
+    for name, own in _OF_ROOT.items():
+        markdown = markdown.replace(f"](../../{name})", f"](../{own})")
+    if page.file.src_uri in _OF_ROOT.values():
+        markdown = markdown.replace("](docs/", "](")
     return _TITLED.sub(r'\2\3 title="\1"', markdown)

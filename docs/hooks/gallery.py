@@ -21,7 +21,9 @@ _REPORTED = "enclosed"
 def files() -> dict[str, str | bytes]:
     """The page of the gallery, its pictures and one report, by their place in the site."""
     runs = {
-        name: args for name, args in _RUNS.items() if not args[0].startswith("blocks") or find_spec("pybullet")
+        name: args
+        for name, args in _RUNS.items()
+        if not args[0].startswith("blocks") or find_spec("pybullet")
     }
     made: dict[str, str | bytes] = {}
     with tempfile.TemporaryDirectory() as scratch:

@@ -52,7 +52,7 @@ def _argument(param: Any) -> dict[str, Any]:
 def _option(param: Any) -> dict[str, Any]:
     """An option; one that stands for yes or no takes no value."""
     names = " / ".join([", ".join(param.opts), *param.secondary_opts])
-    value = "" if param.is_flag else param.metavar or param.type.name.upper()
+    value = "" if param.is_flag else param.metavar or param.name.upper()
     return {"name": f"{names} {value}".strip(), "help": param.help or ""}
 
 
@@ -110,7 +110,9 @@ def _type(schema: dict[str, Any]) -> str:
     if schema.get("type") == "array":
         return f"list of {_type(schema['items'])}" if schema.get("items") else "list"
     if schema.get("type") == "object":
-        inner = schema.get("additionalProperties") or next(iter(schema.get("patternProperties", {}).values()), None)
+        inner = schema.get("additionalProperties") or next(
+            iter(schema.get("patternProperties", {}).values()), None
+        )
         return f"mapping of name to {_type(inner)}" if isinstance(inner, dict) else "mapping"
     return str(schema.get("type", "anything"))
 
@@ -139,7 +141,9 @@ def public_names() -> list[dict[str, Any]]:
         if inspect.isclass(thing) and inspect.getmodule(thing) and thing.__module__.startswith("proc3s"):
             own = [(n, f) for n, f in vars(thing).items() if not n.startswith("_") and _is_method(f)]
             methods = [{"name": n, "doc": inspect.getdoc(_function(f)) or ""} for n, f in own]
-            found.append({"name": name, "signature": "", "doc": inspect.getdoc(thing) or "", "methods": methods})
+            found.append(
+                {"name": name, "signature": "", "doc": inspect.getdoc(thing) or "", "methods": methods}
+            )
         elif inspect.isfunction(thing):
             doc = inspect.getdoc(thing) or ""
             found.append({"name": name, "signature": _signature(thing), "doc": doc, "methods": []})
@@ -207,7 +211,7 @@ def _options(model: type[BaseModel] | None) -> list[dict[str, str]]:
 
 
 def _domains(registry: Registry) -> Iterator[tuple[str, str]]:
-    for name, spec in registry.all(specs.DomainSpec).items():
+    for name in registry.all(specs.DomainSpec):
         domain = registry.domain(name)
         samplers = [sampler.name for sampler in domain.samplers]
         yield f"domain-{name}", render("domain.md.j2", domain=domain.spec, samplers=samplers)

@@ -1,0 +1,67 @@
+"""Blocks of the docs that are no commands: they are part of an example that runs, or they are valid."""
+
+import re
+import tomllib
+from pathlib import Path
+
+import pytest
+import yaml
+from pydantic import TypeAdapter
+
+from proc3s.specs import ConstraintSpec, DomainSpec, SkillSpec
+
+ROOT = Path(__file__).parents[2]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+BLOCK = re.compile(
+    r"(?:<!-- file: (?P<file>\S+) -->\n)?^(?P<fence>`{3,})(?P<language>\w*)\n(?P<body>.*?)^(?P=fence)$",
+    re.MULTILINE | re.DOTALL,
+)
+LANGUAGES = {"console", "sh", "text", "python", "yaml", "toml", "json", "jinja", "markdown"}
+_PART = {"skills": SkillSpec, "constraints": ConstraintSpec}
+
+
+def blocks(page):
+    return list(BLOCK.finditer(page.read_text(encoding="utf-8")))
+
+
+def check_yaml(body):
+    """A whole domain, or parts of one."""
+    data = yaml.safe_load(body)
+    if "spec_version" in data:
+        DomainSpec.model_validate(data)
+        return
+    for key, value in data.items():
+        assert key in DomainSpec.model_fields, f"{key} is no key of a domain.yaml"
+        if key in _PART:
+            TypeAdapter(dict[str, _PART[key]]).validate_python(value)
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_every_block_is_of_a_language_that_is_checked(page):
+    assert {block["language"] for block in blocks(page)} <= LANGUAGES
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_blocks_of_python_and_data_are_valid(page):
+    for block in blocks(page):
+        body = block["body"]
+        if block["language"] == "python":
+            compile(body, str(page), "exec")
+            assert block["file"], "Python that no example writes to a file does not run"
+        elif block["language"] == "yaml":
+            check_yaml(body)
+        elif block["language"] == "toml":
+            tomllib.loads(body)
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_files_of_a_page_are_used_by_its_commands(page):
+    found = blocks(page)
+    used = "\n".join(block["body"] for block in found)
+    for block in found:
+        if block["file"] and Path(block["file"]).name != "proc3s.toml":
+            name = Path(block["file"])
+            mentions = used.replace(f"file: {name}", "")
+            assert any(
+                part in mentions for part in (name.name, name.stem, f"{name.parent}/", str(name.parent))
+            )
