@@ -28,7 +28,8 @@ def files() -> dict[str, str | bytes]:
     made: dict[str, str | bytes] = {}
     with tempfile.TemporaryDirectory() as scratch:
         for name, args in runs.items():
-            _proc3s(Path(scratch), "run", *args, "--out", name)
+            # Named, or whoever builds the site would ask the model of their own settings.
+            _proc3s(Path(scratch), "run", *args, "--llm", "replay", "--out", name)
             made[f"gallery/{name}.png"] = (Path(scratch) / name / "plan.png").read_bytes()
         _proc3s(Path(scratch), "report", _REPORTED, "--out", "report.html")
         made["gallery/report.html"] = (Path(scratch) / "report.html").read_bytes()

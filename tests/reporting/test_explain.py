@@ -153,6 +153,35 @@ def test_a_round_that_was_begun_again_counts_once(cli, two_rounds):
     assert cli("explain", "two").stdout == before
 
 
+PLUGIN = """
+from pathlib import Path
+from proc3s import TemplatesSpec, hookimpl
+
+@hookimpl
+def register_templates(register):
+    register(TemplatesSpec(name="mine", summary="My words.", folder=Path(__file__).parent / "mine"))
+"""
+
+
+def test_a_plugin_may_bring_other_words(cli, here, two_rounds):
+    (here / "mine").mkdir()
+    (here / "mine" / "explain.j2").write_text("{{ task }} took {{ samples }} samples")
+    (here / "mine" / "report.css").write_text("body { color: teal }")
+    (here / "words.py").write_text(PLUGIN)
+    assert cli("explain", "two", "--plugin", "words.py").stdout.startswith("drawing/free took ")
+    cli("report", "two", "--plugin", "words.py")
+    assert "color: teal" in (two_rounds / "report.html").read_text()
+
+
+def test_words_that_cannot_be_rendered_are_a_mistake_with_its_place(cli, here, two_rounds):
+    (here / "mine").mkdir()
+    (here / "mine" / "explain.j2").write_text("\n{% if %}")
+    (here / "words.py").write_text(PLUGIN)
+    done = cli("explain", "two", "--plugin", "words.py")
+    assert done.code == 2
+    assert "explain.j2:2" in done.stderr
+
+
 @pytest.mark.parametrize(
     ("old", "new", "expected"),
     [
