@@ -59,9 +59,9 @@ class RunFolder:
             self._write(f"prompt-{event.round}.md", markdown(event.messages))
         elif isinstance(event, AnswerReceived):
             for number, candidate in enumerate(event.completion.candidates, start=event.candidate):
-                self._write(f"answer-{_name(event.round, number)}.md", candidate.text)
+                self._write(f"answer-{label(event.round, number)}.md", candidate.text)
         elif isinstance(event, ProgramExtracted):
-            self._write(f"program-{_name(event.round, event.candidate)}.py", event.source)
+            self._write(f"program-{label(event.round, event.candidate)}.py", event.source)
         elif isinstance(event, PlanExecuted):
             self._write("plan.json", _pretty(event.plan))
             score = {"goal_reached": event.goal_reached, "goal_reason": event.goal_reason}
@@ -87,7 +87,8 @@ def _mend(log: Path) -> None:
         os.truncate(log, data.rfind(b"\n") + 1)
 
 
-def _name(round_: int, candidate: int) -> str:
+def label(round_: int, candidate: int) -> str:
+    """How files name a program: its round, and its number if there are several."""
     return f"{round_}.{candidate}" if candidate else str(round_)
 
 

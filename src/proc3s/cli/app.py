@@ -7,7 +7,7 @@ from typing import Any
 
 import typer
 
-from proc3s.cli import bench, catalogue, doctor, plugins, render_prompt, replay, run, schema
+from proc3s.cli import bench, catalogue, doctor, explain, plugins, render_prompt, replay, run, schema
 from proc3s.errors import Proc3sError
 
 app = typer.Typer(
@@ -41,6 +41,7 @@ _COMMANDS: dict[str, Callable[..., Any]] = {
     "solve": run.solve,
     "render-prompt": render_prompt.render_prompt,
     "replay": replay.replay,
+    "explain": explain.explain,
     "bench": bench.bench,
     "list": catalogue.list_,
     "show": catalogue.show,

@@ -1,0 +1,78 @@
+"""`proc3s explain`: a run in plain words, and the same as data."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from proc3s.reporting.pointers import Pointer, of_program, of_run
+from proc3s.reporting.story import Program, Round, Story
+from proc3s.reporting.words import Words
+from proc3s.sketch.text import clean
+
+_OF_PROGRAM = {"round", "candidate", "ending", "best", "parameters", "taken", "evaluations", "rejected_by"}
+_LONGEST = 100_000
+"""Characters of an explanation; programs may name things at any length."""
+
+
+def explain(story: Story, folders: Sequence[Path]) -> str:
+    """The run in plain words, round by round, fit for a terminal. The words are in `explain.j2`."""
+    return clean(Words(folders).render("explain.j2", **explained(story, folders)).strip(), _LONGEST) + "\n"
+
+
+def explained(story: Story, folders: Sequence[Path]) -> dict[str, Any]:
+    """The same as data: what `proc3s explain --json` prints and what the template is given."""
+    words = Words(folders)
+    return {
+        "run": str(story.run),
+        "task": story.task,
+        "seed": story.options.get("seed"),
+        "method": story.options.get("method"),
+        "goal": story.options.get("goal"),
+        "solved": story.solved,
+        "ended": story.summary is not None,
+        "error": story.error,
+        "samples": sum(program.taken for program in story.programs),
+        "rounds": [_round(round_, story, words) for round_ in story.rounds],
+        "executed": _executed(story),
+        "look": looks(of_run(story), words),
+    }
+
+
+def looks(pointers: Sequence[Pointer], words: Words) -> list[dict[str, Any]]:
+    """Pointers with their sentences."""
+    return [
+        {
+            "kind": p.kind,
+            "text": words.render("look.j2", kind=p.kind, facts=p.facts).strip(),
+            "facts": p.facts,
+        }
+        for p in pointers
+    ]
+
+
+def _round(round_: Round, story: Story, words: Words) -> dict[str, Any]:
+    return {
+        "round": round_.number,
+        "origin": round_.completions[0].source if round_.completions else "none",
+        "notes": list(round_.notes),
+        "programs": [_program(program, story, words) for program in round_.programs],
+    }
+
+
+def _program(program: Program, story: Story, words: Words) -> dict[str, Any]:
+    diagnosis = program.diagnosis
+    return {
+        **program.model_dump(mode="json", include=_OF_PROGRAM),
+        "file": program.file if program.source is not None else None,
+        "diagnosis": diagnosis.model_dump(mode="json") if diagnosis else None,
+        "steps": [report.model_dump(mode="json") for report in program.steps],
+        "nearest": program.nearest,
+        "change": program.change.model_dump(mode="json") if program.change else None,
+        "look": looks(of_program(program, story), words),
+    }
+
+
+def _executed(story: Story) -> dict[str, Any] | None:
+    if story.executed is None:
+        return None
+    return {name: value for name, value in story.executed.items() if name not in ("event", "time")}

@@ -1,0 +1,167 @@
+"""`proc3s explain` on run folders of every kind."""
+
+import pytest
+
+from proc3s.errors import UsageError
+from proc3s.registry import open_registry
+from proc3s.reporting.changes import line_changes
+from proc3s.reporting.explanation import explain
+from proc3s.reporting.story import read_story
+from proc3s.reporting.words import folders_of
+
+
+def test_two_rounds_in_plain_words(cli, two_rounds):
+    done = cli("explain", "two")
+    assert done.code == 0
+    for sentence in (
+        "drawing/free, seed 0, method proc3s: solved in round 1 after",
+        "Instruction: two lines",
+        "60 samples, none accepted.",
+        '100 % broke "inside" at step 1: the x coordinate leaves the canvas. The nearest miss was off by 1.',
+        "carried out 1 step before they failed",
+        "Never broken: collision.",
+        "Every sample failed in the same place, so other numbers will not help.",
+        "Look at how program-0.py comes to step 1 (draw_line)",
+        "What changed: 3 lines new, 3 lines gone, in gen_plan, gen_domain.",
+        "new parameter `y`: ContinuousSampler(min=-3.0, max=1.0)",
+        "parameter `x` was ContinuousSampler(min=0.0, max=1.0), is ContinuousSampler(min=0.0, max=2.0)",
+        "The goal was not judged",
+        "Picture in two: plan.png.",
+    ):
+        assert sentence in done.stdout
+
+
+def test_the_same_as_data(cli, two_rounds):
+    told = cli("explain", "two", "--json").json
+    first, second = (round_["programs"][0] for round_ in told["rounds"])
+    assert (told["solved"], first["ending"], second["ending"]) == (True, "failed", "solved")
+    assert [(s["step"], s["skill"], s["constraint"], s["count"]) for s in first["steps"]] == [
+        (1, "draw_line", "inside", 60)
+    ]
+    assert first["steps"][0]["nearest"] == first["steps"][0]["median"] == -1
+    assert second["change"]["new_parameters"] == {"y": "ContinuousSampler(min=-3.0, max=1.0)"}
+    assert "+        Action(" in second["change"]["diff"]
+    assert [item["kind"] for item in first["look"]] == ["always"]
+    assert [item["kind"] for item in told["look"]] == ["not_judged", "pictures"]
+
+
+def test_what_separates_better_samples_from_worse(cli):
+    cli("run", "drawing/enclosed", "--samples", 500, "--feedback", 0, "--out", "run")
+    done = cli("explain", "run")
+    assert "`spare` between" in done.stdout
+    assert "Narrow it to that" in done.stdout
+    assert "proc3s replay run --samples 5000" in done.stdout
+    assert "unsolved after 1 round and 500 samples" in done.stdout
+
+
+def test_an_error_of_the_program_is_shown_with_its_line(cli, stub, failing):
+    cli("run", "drawing/star", "--samples", 5, "--feedback", 0, "--llm", stub(failing.broken), "--out", "run")
+    done = cli("explain", "run")
+    assert done.code == 0
+    assert "Line 2 of program-0.py, `return [Action(" in done.stdout
+    assert "nothing" in done.stdout
+
+
+def test_candidates_are_told_apart(cli, stub, failing):
+    answers = [[failing.outside, failing.broken, failing.wider]]
+    ran = cli(
+        *("run", "drawing/free", "--goal", "two", "--samples", 90, "--candidates", 3),
+        *("--llm", stub(*answers), "--out", "run"),
+    )
+    assert ran.code == 0, ran.stderr
+    done = cli("explain", "run")
+    assert "Program 0 of 3" in done.stdout
+    assert "Program 2 of 3" in done.stdout
+    assert "program-0.1.py" in done.stdout
+
+
+def test_a_plan_that_was_carried_out_though_it_violates(cli, stub, failing):
+    cli("run", "drawing/star", "--method", "cap", "--llm", stub(CAP), "--out", "run")
+    done = cli("explain", "run")
+    assert 'It violates "inside" at step 0: the x coordinate leaves the canvas' in done.stdout
+    assert "No plan was accepted; the one that was carried out violates constraints." in done.stdout
+    assert "unsolved" in done.stdout
+
+
+CAP = """
+```python
+def gen_plan(initial):
+    return [Action("draw_line", [-2, 1, 2, 3])]
+```
+"""
+
+
+def test_a_second_stage_alone(cli, here, failing):
+    (here / "sketch.py").write_text(failing.wider.split("```python\n")[1].split("```")[0])
+    cli("solve", "drawing/star", "--sketch", "sketch.py", "--samples", 50, "--out", "run")
+    done = cli("explain", "run")
+    assert "Round 0" in done.stdout
+    assert "--resume" not in done.stdout
+
+
+def test_every_beginning_of_a_log_can_be_explained(two_rounds):
+    folders = folders_of(open_registry())
+    log = two_rounds / "events.jsonl"
+    lines = log.read_bytes().splitlines(keepends=True)
+    for count in range(len(lines)):
+        log.write_bytes(b"".join(lines[:count]) + lines[count][:20])
+        told = explain(read_story(two_rounds), folders)
+        assert "broken off, or still at work" in told
+        assert ("proc3s run --resume" in told) == (count > 1), count
+
+
+def test_a_log_of_an_earlier_version(cli, two_rounds, rewrite):
+    for name in ("dims", "goal_expected", "rehearsals", "id", "log"):
+        rewrite(two_rounds, lambda event, name=name: {k: v for k, v in event.items() if k != name})
+    assert "solved in round 1" in cli("explain", "two").stdout
+
+
+def test_a_log_that_cannot_be_understood(cli, two_rounds, rewrite):
+    rewrite(two_rounds, lambda event: event | ({"u": 7} if event["event"] == "batch_evaluated" else {}))
+    done = cli("explain", "two")
+    assert done.code == 2
+    assert "events.jsonl was not written by this version of proc3s" in done.stderr
+
+
+def test_what_is_no_run_folder(cli, here):
+    done = cli("explain", "nowhere")
+    assert done.code == 2
+    assert "no run folder" in done.stderr
+    with pytest.raises(UsageError, match="no run folder"):
+        read_story(here)
+
+
+def test_a_program_cannot_write_to_the_terminal(cli, two_rounds, rewrite):
+    def poison(event):
+        if event["event"] == "sketch_loaded":
+            event["parameters"] = {"x\x1b[2J\u202e": "ContinuousSampler(min=0.0, max=1.0)"}
+        return event
+
+    rewrite(two_rounds, poison)
+    done = cli("explain", "two")
+    assert done.code == 0
+    assert not {"\x1b", "\u202e"} & set(done.stdout)
+
+
+def test_a_round_that_was_begun_again_counts_once(cli, two_rounds):
+    log = two_rounds / "events.jsonl"
+    lines = log.read_text().splitlines(keepends=True)
+    begun = next(i for i, line in enumerate(lines) if '"round": 1' in line)
+    cut = next(i for i, line in enumerate(lines) if i > begun and "batch_evaluated" in line)
+    before = cli("explain", "two").stdout
+    log.write_text("".join([*lines[: cut + 1], *lines[begun:]]))
+    assert cli("explain", "two").stdout == before
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        ("", "", (0, 0, ())),
+        ("def a():\n    x\n", "def a():\n    y\n", (1, 1, ("a",))),
+        ("def a(\n    x,\n):\n    y\n", "def a(\n    z,\n):\n    y\n", (1, 1, ("a",))),
+        ("def a():\n    x\n\nX = 1\n", "def a():\n    x\n\nX = 2\n", (1, 1, ())),
+        ("", "class A:\n    def f(self):\n        pass\n", (3, 0, ("A",))),
+    ],
+)
+def test_where_lines_changed(old, new, expected):
+    assert line_changes(old, new) == expected
