@@ -55,7 +55,10 @@ def _always(diagnosis: Diagnosis) -> Failure | None:
 
 
 def _numbers(diagnosis: Diagnosis, program: Program) -> Iterator[Pointer]:
+    pressed = {hit.parameter for hit in diagnosis.bound_hits}
     for separation in diagnosis.separations:
+        if separation.parameter in pressed:
+            continue  # its best values lie beyond the bound
         now = program.parameters.get(separation.parameter, "")
         yield Pointer(kind="narrow", facts={**separation.model_dump(), "now": now})
     for hit in diagnosis.bound_hits:

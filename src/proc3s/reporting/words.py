@@ -57,5 +57,7 @@ def sampler(text: str) -> str:
 
 
 def number(value: Any) -> str:
-    """A number to four digits; anything else as it is."""
+    """A number to four digits, also within a pose; anything else as it is."""
+    if isinstance(value, list | tuple):
+        return f"({', '.join(map(number, value))})"
     return f"{value:.4g}" if isinstance(value, float) else str(value)
