@@ -115,10 +115,10 @@ class Surface(NamedTuple):
 
 @dataclass(frozen=True)
 class Mesh:
-    """Convex pieces of a mesh in the frame in which it lies at rest, origin in its centre of mass, m.
+    """Convex pieces of a mesh in the frame in which it lies at rest, its centre of mass at 0, m.
 
-    `meshes.prepare` makes them. PyBullet surrounds the corners (n, 3) of each of the `pieces` with MARGIN; that
-    is the surface. `key` names what it was made of and how: meshes with the same key are equal.
+    `meshes.prepare` makes them. PyBullet surrounds the corners (n, 3) of each of the `pieces` with MARGIN;
+    that is the surface. `key` names what it was made of and how: meshes with the same key are equal.
     """
 
     key: str

@@ -79,7 +79,7 @@ class BowlSpec(BodySpec):
 
 
 class MeshSpec(BodySpec):
-    """`{shape: mesh, path: meshes/cup.stl, mass: 0.2}`: any file that trimesh reads, such as STL, OBJ, PLY."""
+    """`{shape: mesh, path: meshes/cup.stl, mass: 0.2}`: any file that trimesh reads: STL, OBJ, PLY."""
 
     shape: Literal["mesh"]
     path: str

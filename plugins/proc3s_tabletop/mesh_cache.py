@@ -21,7 +21,7 @@ Arrays: TypeAlias = Mapping[str, NDArray[Any]]
 
 
 def folder() -> Path:
-    """Where prepared meshes are kept, made if need be; a temporary folder, with a warning, if it cannot be."""
+    """Where prepared meshes are kept, made if need be; else, with a warning, a temporary folder."""
     import platformdirs
 
     root = Path(os.environ.get(VARIABLE) or platformdirs.user_cache_path("proc3s"))
@@ -35,7 +35,7 @@ def folder() -> Path:
 
 
 def kept(key: str, make: Callable[[], Arrays]) -> Arrays:
-    """The arrays kept under a key; they are made, once among all processes, where they are not there whole."""
+    """The arrays kept under a key; made, once among all processes, where they are not there whole."""
     from filelock import FileLock
 
     where = folder()

@@ -12,8 +12,11 @@ from proc3s import FloatArray
 from proc3s_tabletop import mesh_cache
 from proc3s_tabletop.bodies import MARGIN, Mesh, Surface
 
-FORMAT = 1
+FORMAT = 2
 """Of what is kept; another number makes everything anew."""
+
+SMALLEST, LARGEST = 0.002, 1.0
+"""Edges of the box around a body, m: what is thinner or larger is no object for this table."""
 
 Turn: TypeAlias = tuple[float, float, float]
 
@@ -73,8 +76,18 @@ def _read(path: Path, scale: float, turn: Turn) -> Any:
 
     from proc3s_tabletop.extents import rotation
 
-    mesh = trimesh.load_mesh(path)
+    try:
+        mesh = trimesh.load_mesh(path)
+    except Exception as error:  # every reader of trimesh has its own way to fail
+        raise ValueError(f"{path.name} cannot be read as a mesh: {error}") from error
+    if not len(getattr(mesh, "faces", ())) or not np.isfinite(mesh.vertices).all():
+        raise ValueError(f"{path.name} holds no triangles")
     mesh.apply_scale(scale)
+    size = np.ptp(mesh.vertices, axis=0)
+    if size.min() < SMALLEST or size.max() > LARGEST:
+        raise ValueError(
+            f"{path.name} is {' x '.join(f'{edge:.4g}' for edge in size)} m: is its scale right?"
+        )
     matrix = np.eye(4)
     matrix[:3, :3] = rotation(*turn)
     mesh.apply_transform(matrix)

@@ -16,7 +16,7 @@ DROP = 0.001
 TICKS = 1200
 """Of 1/240 s, within which it comes to rest."""
 ATTEMPTS = 4
-"""Where it does not lie still on the face that it seemed to come to rest on, it is let go from there again."""
+"""Where it does not lie still on the face that it seemed to rest on, it is let go from there again."""
 
 
 def rest(pieces: Sequence[FloatArray]) -> FloatArray:

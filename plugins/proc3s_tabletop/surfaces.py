@@ -41,16 +41,16 @@ def _outside(pieces: Sequence[FloatArray]) -> FloatArray:
     from scipy.spatial import ConvexHull
 
     hulls = [ConvexHull(piece) for piece in pieces]
-    found = []
-    for hull in hulls:
-        for simplex, plane in zip(hull.simplices, hull.equations, strict=True):
-            found.append(cut(hull.points[simplex] + MARGIN * plane[:3], np.array([[0, 1, 2]])))
-    triangles = np.concatenate(found)
+    moved = [h.points[h.simplices] + MARGIN * h.equations[:, None, :3] for h in hulls]
+    corners = np.concatenate(moved).reshape(-1, 3)
+    triangles = cut(corners, np.arange(len(corners)).reshape(-1, 3))
     middles = triangles.mean(axis=1)
     inside = np.zeros(len(middles), bool)
     for hull in hulls:
-        deep = (middles @ hull.equations[:, :3].T + hull.equations[:, 3]).max(axis=1)
-        inside |= deep < MARGIN - 1e-6
+        low, high = hull.points.min(axis=0) - MARGIN, hull.points.max(axis=0) + MARGIN
+        near = np.flatnonzero(~inside & (middles > low).all(axis=1) & (middles < high).all(axis=1))
+        deep = (middles[near] @ hull.equations[:, :3].T + hull.equations[:, 3]).max(axis=1)
+        inside[near] = deep < MARGIN - 1e-6
     return triangles[~inside]
 
 
