@@ -103,8 +103,6 @@ class SketchLoaded(OfProgram):
 
     event: Literal["sketch_loaded"] = "sketch_loaded"
     parameters: dict[str, str]
-    dims: dict[str, int] = {}
-    """How many columns of `u` each of them takes, in the same order."""
     log: str = ""
 
 

@@ -117,21 +117,12 @@ def _enter(setup: Setup, proposal: Proposal, boxes: ExitStack, emit: Emit) -> En
         setup = replace(setup, problem=replace(setup.problem, program=source))
         opened = boxes.enter_context(open_sketch(setup))
         prewarm(setup.limits, setup.locked)  # confirms the winner, or serves the next program
-        emit(_loaded(proposal, opened))
+        samplers = opened.sketch.space.samplers.items()
+        parameters = {name: source_text(sampler) for name, sampler in samplers}
+        emit(SketchLoaded(round=round_, candidate=candidate, parameters=parameters, log=opened.log))
         return _search(setup, opened, proposal, emit)
     except SketchError as error:
         return error
-
-
-def _loaded(proposal: Proposal, opened: Opened) -> SketchLoaded:
-    samplers = opened.sketch.space.samplers
-    return SketchLoaded(
-        round=proposal.round,
-        candidate=proposal.candidate,
-        parameters={name: source_text(sampler) for name, sampler in samplers.items()},
-        dims={name: sampler.dim for name, sampler in samplers.items()},
-        log=opened.log,
-    )
 
 
 def _search(setup: Setup, opened: Opened, proposal: Proposal, emit: Emit) -> Entrant:

@@ -11,7 +11,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 
 from proc3s.errors import UsageError
 from proc3s.feedback import Diagnosis
-from proc3s.llms import Completion, Message
+from proc3s.llms import Completion
 from proc3s.reporting.changes import Change, line_changes, rebound, unified
 from proc3s.reporting.trials import Samples, StepReport, by_step
 from proc3s.runs import LOG, label, read_events
@@ -31,13 +31,9 @@ class Program(BaseModel):
     """`executed`: carried out without being accepted; `unusable`: before a sample was drawn."""
     best: bool = True
     """The one of its round that got furthest; the next question shows it."""
-    answer: str | None = None
     source: str | None = None
     parameters: dict[str, str] = {}
     """Open parameters and how each is sampled."""
-    dims: dict[str, int] = {}
-    """Columns of u that each takes; empty where that is not known."""
-    printed: str = ""
     samples: Samples = Samples()
     taken: int = 0
     """Samples, as the run counts them."""
@@ -67,7 +63,6 @@ class Round(BaseModel):
     model_config = ConfigDict(frozen=True)
 
     number: int
-    messages: tuple[Message, ...] = ()
     completions: tuple[Completion, ...] = ()
     notes: tuple[str, ...] = ()
     """What was warned of, and calls that failed."""
@@ -80,10 +75,7 @@ class Story(BaseModel):
     model_config = ConfigDict(frozen=True)
 
     run: Path
-    id: str = ""
-    began: str | None = None
     options: dict[str, Any] = {}
-    versions: dict[str, str] = {}
     budget: int | None = None
     """Samples that a round may take."""
     rounds: tuple[Round, ...] = ()
@@ -135,10 +127,7 @@ def _story(run: Path, log: Log) -> Story:
         rounds.append(_round(number, _latest(log, number), executed, rounds[-1] if rounds else None))
     return Story(
         run=run,
-        id=begun.get("id", ""),
-        began=begun.get("time"),
         options=resumed.get("options") or begun.get("options") or {},
-        versions=begun.get("versions", {}),
         budget=begun.get("samples"),
         rounds=tuple(rounds),
         executed=executed,
@@ -158,26 +147,22 @@ def _latest(log: Log, number: int) -> Log:
 
 
 def _round(number: int, log: Log, executed: dict[str, Any] | None, before: Round | None) -> Round:
-    prompt = _last(log, "prompt_rendered") or {}
     received = [event for event in log if event["event"] == "answer_received"]
     completions = {event["candidate"]: Completion.model_validate(event["completion"]) for event in received}
     answers = {
-        first + i: candidate.text
-        for first, completion in completions.items()
-        for i, candidate in enumerate(completion.candidates)
+        first + i for first, completion in completions.items() for i in range(len(completion.candidates))
     }
-    candidates = {event["candidate"] for event in log if "candidate" in event} | set(answers)
+    candidates = {event["candidate"] for event in log if "candidate" in event} | answers
     best = (_last(log, "round_ended") or {}).get("candidate")
     if best is None and executed and executed["round"] == number:
         best = executed["candidate"]
     old = next((p for p in before.programs if p.best), None) if before else None
     programs = [
-        _program([e for e in log if e.get("candidate") == c], (number, c), executed, answers.get(c))
+        _program([e for e in log if e.get("candidate") == c], (number, c), executed)
         for c in sorted(candidates)
     ]
     return Round(
         number=number,
-        messages=prompt.get("messages", ()),
         completions=tuple(completions.values()),
         notes=tuple(_note(event) for event in log if event["event"] in ("warned", "call_failed")),
         programs=tuple(_compared(program, best, old) for program in programs),
@@ -188,9 +173,7 @@ def _note(event: dict[str, Any]) -> str:
     return str(event["text"] if event["event"] == "warned" else event["message"])
 
 
-def _program(
-    log: Log, place: tuple[int, int], executed: dict[str, Any] | None, answer: str | None
-) -> Program:
+def _program(log: Log, place: tuple[int, int], executed: dict[str, Any] | None) -> Program:
     extracted = _last(log, "program_extracted") or {}
     loaded = _last(log, "sketch_loaded") or {}
     ended = _last(log, "attempt_ended") or {}
@@ -202,11 +185,8 @@ def _program(
         round=place[0],
         candidate=place[1],
         ending=_ending(ours, samples, diagnosis),
-        answer=answer,
         source=extracted.get("source"),
         parameters=loaded.get("parameters", {}),
-        dims=loaded.get("dims", {}),
-        printed=loaded.get("log", ""),
         samples=samples,
         taken=ended.get("samples", len(samples.u)),
         evaluations=ended.get("evaluations"),
@@ -240,9 +220,7 @@ def _compared(program: Program, best: int | None, old: Program | None) -> Progra
         lines_removed=removed,
         parts=parts,
         new_parameters={n: t for n, t in program.parameters.items() if n not in old.parameters},
-        gone_parameters=tuple(
-            n for n in old.parameters if n not in program.parameters and program.parameters
-        ),
+        gone_parameters=_gone(old, program),
         rebound=rebound(old.parameters, program.parameters),
         diff=unified(old.source, program.source, old.file, program.file),
     )

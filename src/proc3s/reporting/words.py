@@ -1,4 +1,4 @@
-"""Templates of reports: those of `explain` and `report`, found and rendered as those of prompts are."""
+"""Templates of `explain`, found and rendered as those of prompts are."""
 
 import re
 from collections.abc import Sequence
@@ -19,18 +19,17 @@ def folders_of(registry: Registry) -> tuple[Path, ...]:
 
 
 class Words:
-    """Renders report templates; with `escape` every value is escaped for HTML.
+    """Renders templates.
 
     Raises UsageError for a template that is missing, SpecError for one that does not render.
     """
 
-    def __init__(self, folders: Sequence[Path], escape: bool = False) -> None:
+    def __init__(self, folders: Sequence[Path]) -> None:
         self._environment = ImmutableSandboxedEnvironment(
             loader=jinja2.FileSystemLoader(folders),
             undefined=jinja2.StrictUndefined,
             trim_blocks=True,
             lstrip_blocks=True,
-            autoescape=escape,
         )
         self._environment.filters |= {"number": number, "sampler": sampler}
 
