@@ -1,4 +1,4 @@
-"""An answer that a language model might give, for all tests that need one."""
+"""Answers that a language model might give, for all tests that need one."""
 
 STAR = """
 Some words.
@@ -13,5 +13,17 @@ def gen_plan(initial, x, y, radius):
 def gen_domain(initial):
     where = ContinuousSampler(10, 90)
     return {"x": where, "y": where, "radius": ContinuousSampler(8, 20)}
+```
+"""
+OUTSIDE = """
+```python
+def gen_plan(initial, x):
+    return [
+        Action("draw_line", [50, 1, 51, 1]),
+        Action("draw_line", [-1, 1, x, 1]),
+    ]
+
+def gen_domain(initial):
+    return {"x": ContinuousSampler(0, 1)}
 ```
 """

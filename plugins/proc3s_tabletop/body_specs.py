@@ -4,14 +4,17 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
 
 from proc3s import SpecError
 from proc3s.errors import Issue, did_you_mean
 from proc3s.specfile import validate
-from proc3s_tabletop.bodies import CATEGORIES, Body, Bowl, Box, Cylinder, Mesh, Shape
+from proc3s_tabletop import ycb
+from proc3s_tabletop.bodies import CATEGORIES, Body, Bowl, Box, Cylinder, Shape
+from proc3s_tabletop.meshes import prepare
 
 Length = Annotated[float, Field(gt=0, allow_inf_nan=False)]
+Angle = Annotated[float, Field(allow_inf_nan=False)]
 Friction = Annotated[float, Field(ge=0, allow_inf_nan=False)]
 
 
@@ -76,24 +79,63 @@ class BowlSpec(BodySpec):
 
 
 class MeshSpec(BodySpec):
-    """`{shape: mesh, path: meshes/cup.obj, size: [0.08, 0.08, 0.1], mass: 0.2}`: convex pieces."""
+    """`{shape: mesh, path: meshes/cup.stl, mass: 0.2}`: any file that trimesh reads: STL, OBJ, PLY."""
 
-    made: ClassVar[type[Any]] = Mesh
     shape: Literal["mesh"]
     path: str
-    """A Wavefront OBJ file beside the `domain.yaml`, in metres, one `o` group a convex piece."""
-    size: tuple[Length, Length, Length]
-    """Its extent, m; the origin is in the middle."""
+    """A file beside the `domain.yaml`."""
+    scale: Length = 1.0
+    """Metres for a one in the file: 0.001 where it is in mm."""
+    turn: tuple[Angle, Angle, Angle] = (0.0, 0.0, 0.0)
+    """Roll, pitch, yaw, rad, that bring it roughly to how it stands."""
 
-    def _shape(self, own: dict[str, Any], folder: Path | None) -> Shape:
-        return Mesh(str((folder or Path()) / self.path), self.size)
+    def body(self, folder: Path | None) -> Body:
+        """The body at rest. Raises ValueError for a file that is missing or no mesh."""
+        shape = prepare((folder or Path()) / self.path, self.scale, self.turn)
+        return Body(shape, self.mass, self.friction, self.rolling_friction, self.spinning_friction)
 
 
-SHAPES: Mapping[str, type[BodySpec]] = {
+class YcbSpec(BaseModel):
+    """`{shape: ycb, model: 011_banana}`: an object of the YCB set; mass and friction from a table."""
+
+    model_config = BodySpec.model_config
+
+    shape: Literal["ycb"]
+    model: str
+    """With its number or without."""
+    mass: Length | None = None
+    """kg"""
+    friction: Friction | None = None
+    rolling_friction: Friction | None = None
+    spinning_friction: Friction | None = None
+
+    @field_validator("model")
+    @classmethod
+    def _exists(cls, name: str) -> str:
+        model = ycb.named(name)
+        if model is None:
+            raise ValueError(f"there is no YCB model of this name{did_you_mean(name, ycb.models())}")
+        return model
+
+    @model_validator(mode="after")
+    def _weighed(self) -> "YcbSpec":
+        if self.mass is None and self.model not in ycb.table():
+            raise ValueError(f"nobody weighed {self.model}: give its mass in kg")
+        return self
+
+    def body(self, folder: Path | None) -> Body:
+        """The body at rest."""
+        given = self.model_dump(exclude={"shape", "model"}, exclude_none=True)
+        known = ycb.table().get(self.model)
+        return Body(prepare(ycb.models()[self.model]), **{**(vars(known) if known else {}), **given})
+
+
+SHAPES: Mapping[str, type[BodySpec | YcbSpec]] = {
     "box": BoxSpec,
     "cylinder": CylinderSpec,
     "bowl": BowlSpec,
     "mesh": MeshSpec,
+    "ycb": YcbSpec,
 }
 
 
@@ -120,4 +162,8 @@ def _body(where: str, given: Any, folder: Path | None) -> Body:
     if not isinstance(shape, str) or shape not in SHAPES:
         text = "is missing" if shape is None else f"there is no shape {shape!r}"
         raise SpecError([Issue(where, "shape", text + did_you_mean(str(shape), SHAPES))])
-    return validate(SHAPES[shape], given, where).body(folder)
+    spec = validate(SHAPES[shape], given, where)
+    try:
+        return spec.body(folder)
+    except ValueError as error:
+        raise SpecError([Issue(where, "path", str(error))]) from error

@@ -143,17 +143,17 @@ def _require_room(placed: Sequence[Placed], rules: Rules) -> None:
 def _place(
     rng: np.random.Generator, entry: Entry, color: str, placed: Sequence[Placed], rules: Rules
 ) -> Placed:
-    half = rules.bodies[entry.category].half_height
+    standing = rules.bodies[entry.category].height
     yaw = float(rng.uniform(-math.pi, math.pi)) if entry.yaw == "any" else entry.yaw
     if entry.at:
         x, y, *height = entry.at
-        return Placed(entry, color, x, y, height[0] if height else half, yaw)
+        return Placed(entry, color, x, y, height[0] if height else standing, yaw)
     if entry.on is not None and rng.uniform() < entry.chance:
         return _stacked(rng, entry, color, yaw, placed, rules)
     for _ in range(DRAWS):
         x, y = rng.uniform(*np.transpose(_region(entry, rules))).tolist()
         if _free(entry, x, y, placed, rules):
-            return Placed(entry, color, x, y, half, yaw)
+            return Placed(entry, color, x, y, standing, yaw)
     raise _Jammed(f"no room for object_{len(placed)} (a {entry.category})")
 
 
@@ -192,8 +192,8 @@ def _stacked(
         raise _Jammed(f"nothing is left for object_{len(placed)} to stand on ({entry.on})")
     k = int(rng.choice(tops))
     below = placed[k]
-    heights = [rules.bodies[e.category].half_height for e in (below.entry, entry)]
-    z = below.z + sum(heights) - SINK
+    top = below.z + rules.bodies[below.entry.category].top
+    z = top + rules.bodies[entry.category].height - SINK
     return Placed(entry, color, below.x, below.y, z, yaw, k, below.level + 1)
 
 

@@ -4,12 +4,21 @@ YAML (or a plugin's Python) says *what*, in words and numbers; `target` says whi
 """
 
 import importlib
+import itertools
 import math
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, PrivateAttr, model_validator
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    PrivateAttr,
+    field_validator,
+    model_validator,
+)
 
 from proc3s.errors import Issue, SpecError, did_you_mean
 
@@ -83,6 +92,15 @@ class TypeSpec(Spec):
     """Fields in order."""
     methods: ImportString | None = None
     """A class whose methods programs may call; its source stands in the prompt and in the program's box."""
+
+    @field_validator("fields")
+    @classmethod
+    def _defaults_come_last(cls, fields: dict[str, FieldSpec]) -> dict[str, FieldSpec]:
+        names = list(fields)
+        for before, name in itertools.pairwise(names):
+            if fields[name].required and not fields[before].required:
+                raise ValueError(f"{name!r} has no default: it must stand before {before!r}, which has one")
+        return fields
 
 
 class ConstantSpec(Spec):

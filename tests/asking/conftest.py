@@ -6,18 +6,9 @@ from types import SimpleNamespace
 
 import pytest
 
-from sample_answers import STAR
+from sample_answers import OUTSIDE, STAR
 
 LOOSE = Path(__file__).with_name("talker.py")
-OUTSIDE = """
-```python
-def gen_plan(initial, x):
-    return [Action("draw_line", [50, 1, 51, 1]), Action("draw_line", [-1, 1, x, 1])]
-
-def gen_domain(initial):
-    return {"x": ContinuousSampler(0, 1)}
-```
-"""
 HOPELESS = OUTSIDE.replace("[50, 1, 51, 1]", "[-9, 1, 51, 1]")
 
 

@@ -2,20 +2,8 @@
 
 import pytest
 
-from sample_answers import STAR
+from sample_answers import OUTSIDE, STAR
 
-OUTSIDE = """
-```python
-def gen_plan(initial, x):
-    return [
-        Action("draw_line", [50, 1, 51, 1]),
-        Action("draw_line", [-1, 1, x, 1]),
-    ]
-
-def gen_domain(initial):
-    return {"x": ContinuousSampler(0, 1)}
-```
-"""
 LITERAL = """
 ```python
 gen_plan = [Action("draw_line", [1, 1, 2, 1]), Action("draw_line", [LEFT, 1, 3, 1])]

@@ -3,7 +3,7 @@ import toy_world
 from pydantic import ValidationError
 
 from proc3s import MethodSpec, SpecError, load_domain
-from proc3s.specs import FieldSpec, ParamSpec, Target
+from proc3s.specs import FieldSpec, ParamSpec, Target, TypeSpec
 
 
 def test_specs_are_frozen(tmp_path):
@@ -20,6 +20,12 @@ def test_specs_refuse_unknown_keys():
 def test_a_field_is_required_unless_it_has_a_default_even_none():
     assert FieldSpec(type="str").required
     assert not FieldSpec(type="str", default=None).required
+
+
+def test_fields_with_a_default_come_after_those_without():
+    fields = {"color": {"type": "str", "default": ""}, "x": {"type": "float"}}
+    with pytest.raises(ValidationError, match="'x' has no default: it must stand before 'color'"):
+        TypeSpec(summary="A thing.", fields=fields)
 
 
 @pytest.mark.parametrize(

@@ -1,21 +1,12 @@
 """Run folders of every kind, made once, and words about them."""
 
 import json
+from types import SimpleNamespace
 
 import pytest
 
-OUTSIDE = """
-```python
-def gen_plan(initial, x):
-    return [
-        Action("draw_line", [50, 1, 51, 1]),
-        Action("draw_line", [-1, 1, x, 1]),
-    ]
+from sample_answers import OUTSIDE
 
-def gen_domain(initial):
-    return {"x": ContinuousSampler(0, 1)}
-```
-"""
 WIDER = OUTSIDE.replace("ContinuousSampler(0, 1)", "ContinuousSampler(0, 2)").replace("-1, 1, x", "0.5, y, x")
 WIDER = WIDER.replace("initial, x", "initial, x, y").replace('{"x"', '{"y": ContinuousSampler(-3, 1), "x"')
 BROKEN = """
@@ -32,8 +23,6 @@ def gen_domain(initial):
 @pytest.fixture
 def failing():
     """OUTSIDE never is accepted, WIDER is now and then, BROKEN is no usable program."""
-    from types import SimpleNamespace
-
     return SimpleNamespace(outside=OUTSIDE, wider=WIDER, broken=BROKEN)
 
 

@@ -7,7 +7,7 @@ from proc3s.registry import open_registry
 from proc3s.reporting.changes import line_changes
 from proc3s.reporting.explanation import explain
 from proc3s.reporting.story import read_story
-from proc3s.reporting.words import folders_of
+from proc3s.reporting.words import folders_of, number, sampler
 
 
 def test_two_rounds_in_plain_words(cli, two_rounds):
@@ -194,3 +194,9 @@ def test_words_that_cannot_be_rendered_are_a_mistake_with_its_place(cli, here, t
 )
 def test_where_lines_changed(old, new, expected):
     assert line_changes(old, new) == expected
+
+
+def test_numbers_as_people_read_them():
+    assert number(1.84e-14) == number(-1e-12) == "0"
+    assert number([0.123456, 2, "a"]) == "(0.1235, 2, a)"
+    assert sampler("ContinuousSampler(min=1.84e-14, max=12.34567)") == "ContinuousSampler(min=0, max=12.35)"

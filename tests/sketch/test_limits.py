@@ -94,6 +94,15 @@ def test_a_crash_inside_c_code(box):
     assert len(caught.value.done) == 700
 
 
+def test_what_a_program_said_before_it_died_is_read_though_it_takes_no_more_samples(box):
+    """Its long replies wait in the pipe when the next samples can no longer be sent."""
+    crash = "np.lib.stride_tricks.as_strided(np.zeros(1), (10**6,), (4096,)).sum()"
+    long = after(570, crash).replace("2, 3, 4])]", "2, 3, 4])] * 30")
+    with pytest.raises(SketchCrash) as caught:
+        box(long).plans(COUNTING)
+    assert len(caught.value.done) == 570
+
+
 def test_a_program_cannot_be_ended_by_an_exception(box):
     batch = box(after(1, "raise SystemExit(0) from KeyboardInterrupt()")).plans(COUNTING[:3])
     assert str(batch.errors[1]) == "line 3: SystemExit: 0"

@@ -143,7 +143,11 @@ BAD_BODIES = {
     "no mass": ({"shape": "box", "size": [1, 1, 1]}, r"bodies\.cup: mass: is missing"),
     "a flat box": ({"shape": "box", "size": [1, 1, 0], "mass": 1}, r"size\.2: .*greater than 0"),
     "a solid bowl": ({"shape": "bowl", "wall": 0.06, "mass": 1}, r"wall < foot_radius"),
-    "a mesh without size": ({"shape": "mesh", "path": "cup.obj", "mass": 1}, r"size: is missing"),
+    "a mesh without path": ({"shape": "mesh", "mass": 1}, r"path: is missing"),
+    "a mesh that is not there": (
+        {"shape": "mesh", "path": "cup.obj", "mass": 1},
+        r"path: .*no file cup\.obj",
+    ),
 }
 
 

@@ -36,11 +36,6 @@ class Change(BaseModel):
     diff: str
     """Unified, with two lines around each change."""
 
-    @property
-    def same(self) -> bool:
-        """The text is the same, line by line."""
-        return not self.lines_added and not self.lines_removed
-
 
 def line_changes(old: str, new: str) -> tuple[int, int, tuple[str, ...]]:
     """Lines added, lines removed, and the functions and classes that they stand in."""

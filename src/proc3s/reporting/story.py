@@ -240,9 +240,7 @@ def _compared(program: Program, best: int | None, old: Program | None) -> Progra
         lines_removed=removed,
         parts=parts,
         new_parameters={n: t for n, t in program.parameters.items() if n not in old.parameters},
-        gone_parameters=tuple(
-            n for n in old.parameters if n not in program.parameters and program.parameters
-        ),
+        gone_parameters=_gone(old, program),
         rebound=rebound(old.parameters, program.parameters),
         diff=unified(old.source, program.source, old.file, program.file),
     )

@@ -47,13 +47,15 @@ class Words:
             raise SpecError([Issue(name, "", str(error))]) from error
 
 
-_LONG_NUMBER = re.compile(r"-?\d+\.\d{5,}(?:e[-+]?\d+)?")
+_LONG_NUMBER = re.compile(r"-?\d+(?:\.\d{5,}(?:e[-+]?\d+)?|(?:\.\d+)?e-\d+)")
 _LONG_SAMPLER = 72
+_DECIMALS = 9
+"""What a program's arithmetic leaves of a zero reads as zero."""
 
 
 def sampler(text: str) -> str:
     """How a parameter is sampled, its numbers to four digits and a long list cut."""
-    text = _LONG_NUMBER.sub(lambda found: f"{float(found[0]):.4g}", text)
+    text = _LONG_NUMBER.sub(lambda found: number(float(found[0])), text)
     return text if len(text) <= _LONG_SAMPLER else f"{text[: _LONG_SAMPLER - 1]}…"
 
 
@@ -68,7 +70,7 @@ def ticks(text: str) -> Markup:
 
 
 def number(value: Any) -> str:
-    """A number to four digits, also within a pose; anything else as it is."""
+    """A number to four digits and nine decimals, also within a pose; anything else as it is."""
     if isinstance(value, list | tuple):
         return f"({', '.join(map(number, value))})"
-    return f"{value:.4g}" if isinstance(value, float) else str(value)
+    return f"{round(value, _DECIMALS) + 0.0:.4g}" if isinstance(value, float) else str(value)

@@ -101,8 +101,12 @@ class Channel:
             while replies.done < len(rows):
                 while sent < len(chunks) and sent - replies.done // per_chunk < 2:
                     first = FIRST_SAMPLE.pack(replies.first + sent * per_chunk)
-                    self._send(RUN, first + chunks[sent].tobytes(), min(call_end, batch_end))
-                    sent += 1
+                    try:
+                        self._send(RUN, first + chunks[sent].tobytes(), min(call_end, batch_end))
+                    except _Ended:
+                        chunks = chunks[:sent]  # what it said before it ended is still to be read
+                    else:
+                        sent += 1
                 done = replies.done
                 replies.feed(self._read(min(call_end, batch_end)))
                 now = time.monotonic()

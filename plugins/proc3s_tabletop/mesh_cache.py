@@ -1,0 +1,94 @@
+"""Where prepared meshes are kept: files with a checksum, written whole, one process at a time."""
+
+import contextlib
+import hashlib
+import io
+import os
+import tempfile
+import warnings
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+VARIABLE = "PROC3S_CACHE"
+"""Environment variable that names another folder than the user's cache."""
+SUFFIX = ".mesh"
+
+Arrays: TypeAlias = Mapping[str, NDArray[Any]]
+
+
+def folder() -> Path:
+    """Where prepared meshes are kept, made if need be; else, with a warning, a temporary folder."""
+    import platformdirs
+
+    root = Path(os.environ.get(VARIABLE) or platformdirs.user_cache_path("proc3s"))
+    path = root / "meshes"
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=path):
+            return path
+    except OSError as error:
+        return _instead(path, str(error.strerror))
+
+
+def kept(key: str, make: Callable[[], Arrays]) -> Arrays:
+    """The arrays kept under a key; made, once among all processes, where they are not there whole."""
+    from filelock import FileLock
+
+    where = folder()
+    path = where / (key + SUFFIX)
+    if (found := _read(path)) is not None:
+        return found
+    with FileLock(where / (key + ".lock")):
+        if (found := _read(path)) is None:
+            found = make()
+            _write(path, found)
+    return found
+
+
+def _read(path: Path) -> Arrays | None:
+    """What a file keeps; None where there is none, or one that is damaged."""
+    try:
+        checksum, _, content = path.read_bytes().partition(b"\n")
+    except FileNotFoundError:
+        return None
+    if checksum != _checksum(content):
+        return None
+    with np.load(io.BytesIO(content), allow_pickle=False) as arrays:
+        return dict(arrays)
+
+
+def _write(path: Path, arrays: Arrays) -> None:
+    buffer = io.BytesIO()
+    np.savez(buffer, **arrays)
+    content = buffer.getvalue()
+    with _whole(path) as file:
+        file.write(_checksum(content) + b"\n" + content)
+
+
+@contextlib.contextmanager
+def _whole(path: Path) -> Iterator[Any]:
+    """A file that appears under its name when it is complete, or not at all."""
+    with tempfile.NamedTemporaryFile(dir=path.parent, prefix=path.stem[:8], delete=False) as file:
+        try:
+            yield file
+            file.close()
+            Path(file.name).replace(path)
+        except BaseException:
+            Path(file.name).unlink(missing_ok=True)
+            raise
+
+
+def _checksum(content: bytes) -> bytes:
+    return hashlib.sha256(content).hexdigest().encode()
+
+
+def _instead(path: Path, reason: str) -> Path:
+    """A folder for this user while the proper one cannot be used."""
+    where = Path(tempfile.gettempdir()) / f"proc3s-meshes-{os.getuid()}"
+    where.mkdir(mode=0o700, exist_ok=True)
+    warnings.warn(f"{path} cannot be written ({reason}): meshes are kept in {where}", stacklevel=2)
+    return where

@@ -1,0 +1,78 @@
+"""How far the surface that is simulated is from that of the mesh."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from proc3s import FloatArray
+from proc3s_tabletop.bodies import MARGIN
+
+POINTS = 4000
+"""Drawn on each surface."""
+EDGE = 0.004
+"""Triangles are cut until no edge is longer, m: their middles then say which are near a point."""
+NEAR = 12
+"""Triangles that are looked at for a point."""
+
+
+def distance(vertices: FloatArray, faces: Any, pieces: Sequence[FloatArray]) -> float:
+    """95th percentile, the larger of both ways, of the distance between mesh and pieces with margin, m.
+
+    Points are drawn on the mesh, and on the outside of the union of the pieces.
+    """
+    rng = np.random.default_rng(0)
+    mesh, made = cut(vertices, faces), _outside(pieces)
+    there = _nearest(_drawn(rng, mesh), made)
+    back = _nearest(_drawn(rng, made), mesh)
+    return float(max(np.percentile(there, 95), np.percentile(back, 95)))
+
+
+def cut(vertices: FloatArray, faces: Any) -> FloatArray:
+    """Small triangles (n, 3, 3)."""
+    from trimesh.remesh import subdivide_to_size
+
+    small, of = subdivide_to_size(vertices, faces, EDGE)
+    return np.asarray(small[of])
+
+
+def _outside(pieces: Sequence[FloatArray]) -> FloatArray:
+    """Triangles (n, 3, 3) of the surface that a margin makes around pieces."""
+    from scipy.spatial import ConvexHull
+
+    hulls = [ConvexHull(piece) for piece in pieces]
+    moved = [h.points[h.simplices] + MARGIN * h.equations[:, None, :3] for h in hulls]
+    corners = np.concatenate(moved).reshape(-1, 3)
+    triangles = cut(corners, np.arange(len(corners)).reshape(-1, 3))
+    middles = triangles.mean(axis=1)
+    inside = np.zeros(len(middles), bool)
+    for hull in hulls:
+        low, high = hull.points.min(axis=0) - MARGIN, hull.points.max(axis=0) + MARGIN
+        near = np.flatnonzero(~inside & (middles > low).all(axis=1) & (middles < high).all(axis=1))
+        deep = (middles[near] @ hull.equations[:, :3].T + hull.equations[:, 3]).max(axis=1)
+        inside[near] = deep < MARGIN - 1e-6
+    return triangles[~inside]
+
+
+def _drawn(rng: np.random.Generator, triangles: FloatArray) -> FloatArray:
+    """Points (n, 3) spread evenly over triangles."""
+    a, b, c = triangles.transpose(1, 0, 2)
+    areas = np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    chosen = rng.choice(len(triangles), POINTS, p=areas / areas.sum())
+    u = rng.random((POINTS, 2))
+    u = np.where(u.sum(axis=1, keepdims=True) > 1, 1 - u, u)
+    points: FloatArray = a[chosen] + u[:, :1] * (b - a)[chosen] + u[:, 1:] * (c - a)[chosen]
+    return points
+
+
+def _nearest(points: FloatArray, triangles: FloatArray) -> FloatArray:
+    """Distances (n,) of points to the nearest triangle, m."""
+    from scipy.spatial import cKDTree
+    from trimesh.triangles import closest_point
+
+    count = min(NEAR, len(triangles))
+    _, which = cKDTree(triangles.mean(axis=1)).query(points, k=count)
+    repeated = np.repeat(points, count, axis=0)
+    away = np.linalg.norm(closest_point(triangles[which.ravel()], repeated) - repeated, axis=1)
+    nearest: FloatArray = away.reshape(-1, count).min(axis=1)
+    return nearest

@@ -1,0 +1,130 @@
+"""Mesh bodies: prepared once, kept safely, true to their mesh, at rest where a scene puts them."""
+
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+import trimesh
+
+from proc3s import SpecError
+from proc3s_tabletop.body_specs import bodies_of
+from proc3s_tabletop.recipe import Recipe
+from proc3s_tabletop.things import Frame
+from proc3s_tabletop.workbench import Workbench
+
+PREPARE = "import sys; from proc3s_tabletop.meshes import *; print(prepare(Path(sys.argv[1]), 0.001).error)"
+
+
+@pytest.fixture(autouse=True)
+def cache(tmp_path_factory, monkeypatch):
+    """The cache folder of these tests."""
+    folder = tmp_path_factory.getbasetemp() / "proc3s-cache"
+    monkeypatch.setenv("PROC3S_CACHE", str(folder))
+    return folder / "meshes"
+
+
+@pytest.fixture
+def fresh(tmp_path, monkeypatch):
+    """An empty cache folder."""
+    monkeypatch.setenv("PROC3S_CACHE", str(tmp_path / "cache"))
+    return tmp_path / "cache" / "meshes"
+
+
+@pytest.fixture
+def cup(tmp_path):
+    """A mesh file in mm."""
+    path = tmp_path / "cup.stl"
+    trimesh.creation.cylinder(radius=30, height=80).export(path)
+    return path
+
+
+def ycb(model, **more):
+    return bodies_of({"thing": {"shape": "ycb", "model": model, **more}})["thing"]
+
+
+def mesh(path, **more):
+    return bodies_of({"cup": {"shape": "mesh", "path": str(path), "mass": 0.2, **more}})["cup"]
+
+
+def stays(body):
+    start = Frame((0.0, 0.0, body.height), (0.0, 0.0, 0.0, 1.0))
+    bench = Workbench({"thing": body}, Recipe())
+    try:
+        found = bench.rest(((body, start),))
+    finally:
+        bench.close()
+    assert found.at_rest
+    assert found.frames[0].position == pytest.approx(start.position, abs=3e-4)
+    assert abs(found.frames[0].rotation[3]) > np.cos(0.005 / 2)
+
+
+def test_a_body_stays_where_a_scene_puts_it():
+    stays(ycb("011_banana"))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("model", "error"),
+    [
+        ("banana", 0.002),
+        ("strawberry", 0.002),
+        ("apple", 0.002),
+        ("pear", 0.002),
+        ("potted_meat_can", 0.002),
+        # The bound for all others is missed here: many edges, and cavities between handle and battery.
+        ("power_drill", 0.0035),
+    ],
+)
+def test_the_pieces_are_true_to_the_mesh(model, error):
+    body = ycb(model)
+    assert body.shape.error < error
+    stays(body)
+
+
+def test_mass_and_friction_come_from_the_table_unless_they_are_given():
+    assert ycb("banana").mass == pytest.approx(0.066)
+    assert ycb("banana", mass=0.1).mass == pytest.approx(0.1)
+
+
+@pytest.mark.parametrize(
+    ("given", "words"), [("bananna", "did you mean '011_banana'"), ("077_rubiks_cube", "give its mass")]
+)
+def test_a_model_that_cannot_be_had(given, words):
+    with pytest.raises(SpecError, match=words):
+        ycb(given)
+
+
+def test_a_file_in_millimetres_turned(cup):
+    upright, lying = mesh(cup, scale=0.001), mesh(cup, scale=0.001, turn=[np.pi / 2, 0, 0])
+    assert (upright.height, upright.top) == pytest.approx((0.04, 0.04), abs=1.5e-3)
+    assert lying.height == pytest.approx(0.03, abs=1.5e-3)
+
+
+def test_a_damaged_file_of_the_cache_is_made_again(fresh, cup):
+    first = mesh(cup, scale=0.001)
+    (kept,) = fresh.glob("*.mesh")
+    whole = kept.read_bytes()
+    kept.write_bytes(whole[: len(whole) // 2])
+    os.utime(cup, ns=(1, 1))  # this process remembers what it made of the file as it was
+    assert mesh(cup, scale=0.001) == first
+    assert len(kept.read_bytes()) == len(whole)
+
+
+def test_two_processes_prepare_a_mesh_at_once(fresh, cup):
+    command = [sys.executable, "-c", PREPARE, str(cup)]
+    both = [subprocess.Popen(command, stdout=subprocess.PIPE, text=True) for _ in range(2)]
+    told = [process.communicate(timeout=120)[0] for process in both]
+    assert told[0] == told[1] != ""
+    assert len(list(fresh.glob("*.mesh"))) == 1
+
+
+def test_files_that_are_no_body(fresh, tmp_path, cup):
+    (tmp_path / "broken.stl").write_text("solid nothing")
+    (tmp_path / "words.obj").write_text("some words\n")
+    for name, words in [("broken.stl", "broken"), ("words.obj", "words"), ("missing.stl", "no file")]:
+        with pytest.raises(SpecError, match=words):
+            mesh(tmp_path / name)
+    with pytest.raises(SpecError, match="is its scale right"):
+        mesh(cup)
