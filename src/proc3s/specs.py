@@ -38,7 +38,9 @@ class Target(Spec):
     """A Python object to call: `target: "package.module:name"`, with keyword arguments."""
 
     target: ImportString
+    """`package.module:name` of a class or function; the spec says what it is called with."""
     args: dict[str, Any] = Field(default_factory=dict)
+    """Further keyword arguments of the call."""
 
     def load(self) -> Any:
         """The object that `target` names. Raises SpecError if it cannot be imported."""
@@ -165,6 +167,7 @@ class SamplerSpec(Target):
 
     kind: ClassVar[str] = "samplers"
     name: Identifier
+    """Its name, as programs write it."""
     summary: str
     """One sentence for the LLM."""
     params: dict[Identifier, Literal["float", "list"]]
@@ -202,6 +205,7 @@ class ScreenSpec(Target):
     """
 
     name: str
+    """What counts of rejected plans call it."""
     exact: bool = False
     """It rejects just what the world rejects, with the same violation."""
     stateful: bool = False
@@ -228,6 +232,7 @@ class ExampleSpec(TaskSpec):
     """A worked example for the prompt: a task of its own whose answers stand in `examples/NAME.KIND.md`."""
 
     instruction: str
+    """What to do, in plain language."""
     seed: int = 0
     """Seed of its scene."""
 
@@ -239,6 +244,7 @@ class DomainSpec(Spec):
     spec_version: Literal[1]
     """Version of this format."""
     name: Identifier
+    """The part before the slash in `domain/task`."""
     summary: str
     """One sentence: what this world is."""
     world: Target
@@ -290,7 +296,9 @@ class MethodSpec(Spec):
 
     kind: ClassVar[str] = "methods"
     name: str
+    """What `--method` calls it."""
     summary: str
+    """One sentence for `proc3s list`."""
     template: str
     """Template of the prompt, `methods/NAME.j2`; bundled answers are kept under the same NAME."""
     answer: Literal["sketch", "program", "plan"]
@@ -312,7 +320,9 @@ class PresetSpec(Spec):
 
     kind: ClassVar[str] = "presets"
     name: str
+    """What `--preset` calls it."""
     summary: str
+    """One sentence for `proc3s list`."""
     budget: str
     """Which of the budgets of a domain applies."""
     feedback: str = "paper"
@@ -338,7 +348,9 @@ class SolverSpec(Target):
 
     kind: ClassVar[str] = "solvers"
     name: str
+    """What `--solver` calls it."""
     summary: str
+    """One sentence for `proc3s list`."""
     options: ImportString | None = None
     """pydantic model of its options (`-S key=value`)."""
 
@@ -348,7 +360,9 @@ class LLMSpec(Target):
 
     kind: ClassVar[str] = "llms"
     name: str
+    """What `--llm` begins with."""
     summary: str
+    """One sentence for `proc3s list`."""
     usage: str
     """How `--llm` names it."""
     options: ImportString | None = None
@@ -362,7 +376,9 @@ class ExecutorSpec(Target):
 
     kind: ClassVar[str] = "executors"
     name: str
+    """What `--executor` calls it."""
     summary: str
+    """One sentence for `proc3s list`."""
 
 
 class TemplatesSpec(Spec):
@@ -370,5 +386,8 @@ class TemplatesSpec(Spec):
 
     kind: ClassVar[str] = "templates"
     name: str
+    """What `proc3s list` calls it."""
     summary: str
+    """One sentence for `proc3s list`."""
     folder: Path
+    """Where the `.j2` files lie."""

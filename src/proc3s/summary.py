@@ -4,7 +4,7 @@ from collections import Counter
 from pathlib import Path
 from typing import Any, Literal
 
-from pydantic import BaseModel
+from pydantic import BaseModel, ConfigDict
 
 from proc3s.budget import Spent
 from proc3s.feedback import Diagnosis, Failure
@@ -16,41 +16,62 @@ from proc3s.planner import Outcome
 class Summary(BaseModel):
     """What `run` and `solve` print with `--json` and keep as `summary.json`."""
 
+    model_config = ConfigDict(use_attribute_docstrings=True)
+
     task: str | None = None
+    """`domain/task`."""
     method: str | None = None
+    """The method."""
     llm: str | None = None
+    """The language model as `--llm` names it; null if none was asked."""
     llm_source: Literal["live", "recorded", "authored", "manual", "none"] = "none"
+    """Where the last answer is from; authored ones were written by hand."""
     solver: str | None = None
+    """The solver."""
     preset: str | None = None
+    """The preset."""
     seed: int | None = None
+    """The seed of the scene and of the search."""
     solved: bool = False
     """The world accepted the plan."""
     executed: Literal["solution", "fallback", "none"] = "none"
+    """Whether the plan that was carried out is an accepted one."""
     goal_reached: bool | None = None
     """The judge says that the instruction is fulfilled; null without a judge."""
     goal_reason: str | None = None
+    """Why the judge says so."""
     goal_expected: bool | None = None
     """The same verdict on the world that accepted the plan; execution may end otherwise."""
     rounds: int = 0
     """Feedback rounds after the first answer."""
     samples: int = 0
+    """Parameter vectors with a verdict, up to the accepted one, over all rounds."""
     evaluations: int = 0
+    """Those of them that the world had to look at."""
     rehearsals: int = 0
     """Of plans that the world had accepted, under disturbances (`--robust`)."""
     rejected_by: dict[str, int] = {}
+    """Samples that each screen rejected."""
     seconds: dict[str, float] = {}
+    """Wall seconds by stage."""
     cpu_seconds: dict[str, float] = {}
+    """CPU seconds by stage, those of child processes included."""
     plan: list[dict[str, Any]] | None = None
+    """The plan that was carried out: `skill` and `args` of every step."""
     violations: list[dict[str, Any]] = []
+    """What that plan violates; without one, the failures of the last round."""
     program_errors: list[dict[str, Any]] = []
+    """Errors of the last program, with their line."""
     nearest: dict[str, Any] | None = None
     """Of an unsolved run, the plan that came furthest, and what it violates."""
     usage: Spent = Spent()
     """What the answers cost, recorded ones when they were recorded; unknown sums are null."""
     run_dir: str | None = None
+    """The run folder."""
     stopped: Literal["usage", "llm", "budget", "pending", "interrupted"] | None = None
     """Why the run did not come to its end, in a word; `error` says it in a sentence."""
     error: str | None = None
+    """Null unless the run could not be carried out."""
 
 
 def summarize(

@@ -9,6 +9,7 @@ import yaml
 from pydantic import TypeAdapter
 
 from proc3s.specs import ConstraintSpec, DomainSpec, SkillSpec
+from proc3s_tabletop.body_specs import SHAPES
 
 ROOT = Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
@@ -25,12 +26,16 @@ def blocks(page):
 
 
 def check_yaml(body):
-    """A whole domain, or parts of one."""
+    """A whole domain, or parts of one; bodies are what the table-top takes."""
     data = yaml.safe_load(body)
     if "spec_version" in data:
         DomainSpec.model_validate(data)
         return
     for key, value in data.items():
+        if key == "bodies":
+            for body_spec in value.values():
+                SHAPES[body_spec["shape"]].model_validate(body_spec)
+            continue
         assert key in DomainSpec.model_fields, f"{key} is no key of a domain.yaml"
         if key in _PART:
             TypeAdapter(dict[str, _PART[key]]).validate_python(value)
@@ -48,7 +53,7 @@ def test_blocks_of_python_and_data_are_valid(page):
         if block["language"] == "python":
             compile(body, str(page), "exec")
             assert block["file"], "Python that no example writes to a file does not run"
-        elif block["language"] == "yaml":
+        elif block["language"] == "yaml" and not block["file"]:  # a file is read by the commands of its page
             check_yaml(body)
         elif block["language"] == "toml":
             tomllib.loads(body)
@@ -57,11 +62,9 @@ def test_blocks_of_python_and_data_are_valid(page):
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
 def test_files_of_a_page_are_used_by_its_commands(page):
     found = blocks(page)
-    used = "\n".join(block["body"] for block in found)
     for block in found:
         if block["file"] and Path(block["file"]).name != "proc3s.toml":
             name = Path(block["file"])
-            mentions = used.replace(f"file: {name}", "")
-            assert any(
-                part in mentions for part in (name.name, name.stem, f"{name.parent}/", str(name.parent))
-            )
+            others = "\n".join(other["body"] for other in found if other.start() != block.start())
+            known = (name.name, name.stem, *(part for part in (name.parent.name,) if part))
+            assert any(part in others for part in known), f"no command reads {name}"
