@@ -4,11 +4,11 @@ import inspect
 from collections.abc import Iterator
 from typing import Any
 
+import names
 import typer
 from pydantic import BaseModel
 from words import render
 
-import proc3s
 from proc3s import events, hookspecs, specs, summary
 from proc3s.asking import CallOptions
 from proc3s.cli import app
@@ -23,8 +23,10 @@ def pages() -> dict[str, str]:
         "reference/cli.md": render("cli.md.j2", commands=commands()),
         "reference/domain-yaml.md": render("specs.md.j2", specs=tables(specs.DomainSpec)),
         "reference/hooks.md": render("hooks.md.j2", hooks=hooks(), specs=_registered()),
-        "reference/python.md": render("python.md.j2", names=public_names()),
-        "reference/run-folder.md": render("run_folder.md.j2", events=_events(), summary=_summary()),
+        "reference/python.md": render("python.md.j2", names=names.public()),
+        "reference/run-folder.md": render(
+            "run_folder.md.j2", events=_events(), summary=_described(summary.Summary)
+        ),
         "reference/plugins.md": render("plugins.md.j2", **_plugins(registry)),
         **{f"reference/{name}.md": text for name, text in _domains(registry)},
     }
@@ -32,7 +34,6 @@ def pages() -> dict[str, str]:
 
 def commands() -> list[dict[str, Any]]:
     """Every command with its arguments and options, as its `--help` has them."""
-    group: Any = typer.main.get_command(app)
     return [
         {
             "name": name,
@@ -40,8 +41,16 @@ def commands() -> list[dict[str, Any]]:
             "arguments": [_argument(p) for p in command.params if p.param_type_name == "argument"],
             "options": [_option(p) for p in command.params if p.param_type_name == "option"],
         }
-        for name, command in group.commands.items()
+        for name, command in _leaves(typer.main.get_command(app), "")
     ]
+
+
+def _leaves(group: Any, above: str) -> Iterator[tuple[str, Any]]:
+    for name, command in group.commands.items():
+        if hasattr(command, "commands"):
+            yield from _leaves(command, f"{above}{name} ")
+        else:
+            yield f"{above}{name}", command
 
 
 def _argument(param: Any) -> dict[str, Any]:
@@ -124,7 +133,9 @@ def _default(value: Any) -> str:
 def hooks() -> list[dict[str, str]]:
     """Every hook with its signature and what it is for."""
     found = [f for name, f in vars(hookspecs).items() if inspect.isfunction(f) and hasattr(f, "proc3s_spec")]
-    return [{"name": f.__name__, "signature": _signature(f), "doc": inspect.getdoc(f) or ""} for f in found]
+    return [
+        {"name": f.__name__, "signature": names.signature(f), "doc": inspect.getdoc(f) or ""} for f in found
+    ]
 
 
 def _registered() -> list[dict[str, Any]]:
@@ -133,52 +144,28 @@ def _registered() -> list[dict[str, Any]]:
     return tables(*kinds, specs.LLMSpec, specs.ExecutorSpec, specs.TemplatesSpec)
 
 
-def public_names() -> list[dict[str, Any]]:
-    """What `import proc3s` gives to authors of plugins."""
-    found = []
-    for name in sorted(proc3s.__all__, key=str.lower):
-        thing = getattr(proc3s, name)
-        if inspect.isclass(thing) and inspect.getmodule(thing) and thing.__module__.startswith("proc3s"):
-            own = [(n, f) for n, f in vars(thing).items() if not n.startswith("_") and _is_method(f)]
-            methods = [{"name": n, "doc": inspect.getdoc(_function(f)) or ""} for n, f in own]
-            found.append(
-                {"name": name, "signature": "", "doc": inspect.getdoc(thing) or "", "methods": methods}
-            )
-        elif inspect.isfunction(thing):
-            doc = inspect.getdoc(thing) or ""
-            found.append({"name": name, "signature": _signature(thing), "doc": doc, "methods": []})
-        else:
-            found.append({"name": name, "signature": "", "doc": f"`{thing!r}`", "methods": []})
-    return found
-
-
-def _is_method(thing: Any) -> bool:
-    return inspect.isfunction(thing) or isinstance(thing, property | classmethod | staticmethod)
-
-
-def _function(thing: Any) -> Any:
-    return thing.fget if isinstance(thing, property) else getattr(thing, "__func__", thing)
-
-
-def _signature(function: Any) -> str:
-    return f"{function.__name__}{inspect.signature(function)}".replace("'", "").replace("proc3s.", "")
-
-
 def _events() -> list[dict[str, Any]]:
+    """Events by the name that they have in the log."""
     classes = [c for c in vars(events).values() if inspect.isclass(c) and issubclass(c, events.Event)]
     return [
         {
             "name": cls.model_fields["event"].default,
-            "doc": inspect.getdoc(cls) or "",
-            "fields": [name for name in cls.model_fields if name != "event"],
+            "says": inspect.getdoc(cls),
+            "fields": [field for field in _described(cls) if field["name"] != "event"],
         }
         for cls in classes
         if isinstance(cls.model_fields["event"].default, str)
     ]
 
 
-def _summary() -> list[str]:
-    return list(summary.Summary.model_fields)
+def _described(model: type[BaseModel]) -> list[dict[str, str]]:
+    """Fields of a document with the types that they have in Python."""
+    bases = model.__mro__[:-2]  # up to pydantic's own
+    kinds = {field["name"]: field["type"] for cls in reversed(bases) for field in names.fields(cls)}
+    return [
+        {"name": name, "type": kinds[name], "says": info.description or ""}
+        for name, info in model.model_fields.items()
+    ]
 
 
 def _plugins(registry: Registry) -> dict[str, Any]:

@@ -34,6 +34,7 @@ class Violation:
     step: int
     skill: str
     margin: float
+    """In the constraint's unit; negative."""
     text: str
 
     def to_json(self) -> dict[str, Any]:

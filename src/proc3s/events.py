@@ -16,7 +16,7 @@ from proc3s.problem import Trial
 class Event(BaseModel):
     """Base of all events; `event` names it in the log."""
 
-    model_config = ConfigDict(frozen=True)
+    model_config = ConfigDict(frozen=True, use_attribute_docstrings=True)
 
     event: str
 
@@ -25,7 +25,9 @@ class OfProgram(Event):
     """An event of one of the programs that were proposed in a round."""
 
     round: int
+    """Counted from 0; round 0 is the first question."""
     candidate: int = 0
+    """Which of the answers of its round, from 0."""
 
 
 class RunStarted(Event):
@@ -35,7 +37,9 @@ class RunStarted(Event):
     id: str = ""
     """Names the run among all others; it keeps it when it is resumed."""
     options: dict[str, Any]
+    """Options of the run, as on the command line."""
     versions: dict[str, str]
+    """Versions of Python, the platform, proc3s and what it needs."""
     samples: int
     """Samples that a round may take."""
     scene: str
@@ -47,7 +51,9 @@ class RunResumed(Event):
 
     event: Literal["run_resumed"] = "run_resumed"
     options: dict[str, Any]
+    """Options of the run, as on the command line."""
     versions: dict[str, str]
+    """Versions of Python, the platform, proc3s and what it needs."""
 
 
 class PromptRendered(Event):
@@ -55,8 +61,11 @@ class PromptRendered(Event):
 
     event: Literal["prompt_rendered"] = "prompt_rendered"
     round: int
+    """Counted from 0; round 0 is the first question."""
     sha256: str
+    """Of roles and texts of the messages; a recorded answer is found by it."""
     messages: tuple[Message, ...]
+    """The messages in order."""
 
 
 class CallFailed(Event):
@@ -64,9 +73,13 @@ class CallFailed(Event):
 
     event: Literal["call_failed"] = "call_failed"
     round: int
+    """Counted from 0; round 0 is the first question."""
     fault: str
+    """The kind of failure."""
     message: str
+    """What the provider said."""
     wait: float
+    """Seconds until the next call."""
 
 
 class Charged(Event):
@@ -74,6 +87,7 @@ class Charged(Event):
 
     event: Literal["charged"] = "charged"
     ledger: Ledger
+    """Calls, tokens and US dollars of all calls up to here."""
 
 
 class Warned(Event):
@@ -81,7 +95,9 @@ class Warned(Event):
 
     event: Literal["warned"] = "warned"
     round: int
+    """Counted from 0; round 0 is the first question."""
     text: str
+    """What to know."""
 
 
 class AnswerReceived(OfProgram):
@@ -89,6 +105,7 @@ class AnswerReceived(OfProgram):
 
     event: Literal["answer_received"] = "answer_received"
     completion: Completion
+    """The answer, where it is from, and what it cost."""
 
 
 class ProgramExtracted(OfProgram):
@@ -96,6 +113,7 @@ class ProgramExtracted(OfProgram):
 
     event: Literal["program_extracted"] = "program_extracted"
     source: str
+    """Its text; `program-N.py` holds the same."""
 
 
 class SketchLoaded(OfProgram):
@@ -103,9 +121,11 @@ class SketchLoaded(OfProgram):
 
     event: Literal["sketch_loaded"] = "sketch_loaded"
     parameters: dict[str, str]
+    """How each open parameter is sampled, as a program writes it."""
     dims: dict[str, int] = {}
     """How many columns of `u` each of them takes, in the same order."""
     log: str = ""
+    """What the program printed while it was loaded."""
 
 
 class BatchEvaluated(OfProgram):
@@ -113,13 +133,21 @@ class BatchEvaluated(OfProgram):
 
     event: Literal["batch_evaluated"] = "batch_evaluated"
     first: int
+    """Number of the first sample among those of the program, from 0."""
     u: list[list[float]]
+    """Samples in the unit cube, one row each."""
     accepted: list[bool]
+    """Whether the world accepted the plan."""
     reached: list[int]
+    """Steps before the first violation."""
     violation: list[str | None]
+    """The constraint that was violated first, or the kind of an error."""
     step: list[int | None]
+    """The step of that violation, from 0."""
     text: list[str | None]
+    """The violation or error in words."""
     margin: list[float | None]
+    """Its margin in the constraint's unit, negative; null where it is not known."""
 
     @classmethod
     def from_trials(cls, round_: int, candidate: int, trials: Sequence[Trial]) -> "BatchEvaluated":
@@ -151,7 +179,9 @@ class Audited(OfProgram):
 
     event: Literal["audited"] = "audited"
     checked: int
+    """Rejects that were put to the world."""
     wrong: list[dict[str, Any]]
+    """Those that the world accepts: the plan, and what it was rejected for."""
 
     @classmethod
     def of(cls, round_: int, candidate: int, findings: Findings) -> "Audited":
@@ -168,10 +198,15 @@ class AttemptEnded(OfProgram):
 
     event: Literal["attempt_ended"] = "attempt_ended"
     diagnosis: Diagnosis
+    """Why nothing was accepted."""
     samples: int
+    """Parameter vectors with a verdict."""
     evaluations: int
+    """Those of them that the world had to look at."""
     rehearsals: int = 0
+    """Of accepted plans, under disturbances."""
     rejected_by: dict[str, int]
+    """Samples that each screen rejected."""
     fallback: list[dict[str, Any]] | None
     """The plan that is executed if no other comes."""
     nearest: dict[str, Any] | None
@@ -183,9 +218,11 @@ class RoundEnded(OfProgram):
 
     event: Literal["round_ended"] = "round_ended"
     diagnosis: Diagnosis
+    """Why nothing was accepted."""
     seconds: dict[str, float]
     """Wall seconds by stage up to here."""
     cpu_seconds: dict[str, float]
+    """CPU seconds by stage, those of child processes included."""
 
 
 class PlanExecuted(OfProgram):
@@ -193,10 +230,15 @@ class PlanExecuted(OfProgram):
 
     event: Literal["plan_executed"] = "plan_executed"
     executed: Literal["solution", "fallback"]
+    """Whether the world had accepted it."""
     plan: list[dict[str, Any]]
+    """Skill and arguments of every step."""
     violations: list[dict[str, Any]]
+    """What it violates, if it was not accepted."""
     goal_reached: bool | None
+    """The judge's verdict; null without a judge."""
     goal_reason: str
+    """The judge's reason."""
     goal_expected: bool | None = None
     """The judge's verdict on the state that the world which accepted the plan ends in."""
 
@@ -206,6 +248,7 @@ class RunEnded(Event):
 
     event: Literal["run_ended"] = "run_ended"
     summary: dict[str, Any]
+    """The document that `--json` prints."""
 
 
 Emit: TypeAlias = Callable[[Event], None]

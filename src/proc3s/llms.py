@@ -35,6 +35,7 @@ class Sampling(_Data):
     """How answers are drawn. None leaves it to the provider."""
 
     temperature: float | None = None
+    """0 for the likeliest answer; most providers take up to 1 or 2."""
     seed: int | None = None
     n: int = Field(default=1, ge=1)
     """Candidates wanted in one answer."""

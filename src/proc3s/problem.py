@@ -130,8 +130,8 @@ class Trial:
     """The verdict on one sample: a plan rolled out, or the error of the program that made none.
 
     `reached` counts the steps before the first violation. `margins` holds, per step that was carried
-    out, the margin of every constraint that applies. `screen` names the screen that rejected the plan.
-    `rehearsals` counts those of the plan, `index` the samples of a problem from 0.
+    out, the margin of every constraint that applies, in its unit. `screen` names the screen that rejected
+    the plan. `rehearsals` counts those of the plan, `index` the samples of a problem from 0.
     """
 
     plan: Plan | None = None

@@ -2,7 +2,6 @@
 
 import functools
 import os
-import re
 import subprocess
 import sys
 import threading
@@ -12,7 +11,6 @@ from pathlib import Path
 from urllib.parse import unquote, urljoin, urlsplit
 
 import pytest
-import typer
 
 from browser import needs_chromium, visiting
 
@@ -97,57 +95,6 @@ def test_every_page_of_the_docs_is_in_the_menu(site):
     for page in (ROOT / "docs").rglob("*.md"):
         name = page.relative_to(ROOT / "docs").with_suffix("").as_posix()
         assert name == "index" or f"{name}/" in home, f"no menu leads to {name}"
-
-
-def section(text, heading):
-    """The part of a page under a heading of the second order."""
-    parts = re.split(r"<h2 id=\"([^\"]+)\"", text)
-    return dict(zip(parts[1::2], parts[2::2], strict=True))[heading]
-
-
-def test_every_command_and_option_is_in_the_reference(site):
-    from proc3s.cli import app
-
-    text = (site / "reference/cli/index.html").read_text(encoding="utf-8")
-    for name in typer.main.get_command(app).commands:
-        shown = subprocess.run(
-            [sys.executable, "-m", "proc3s", name, "--help"],
-            capture_output=True,
-            text=True,
-            timeout=60,
-            env={**os.environ, "COLUMNS": "200", "TERMINAL_WIDTH": "200"},
-        ).stdout
-        options = set(re.findall(r"(?<![\w-])--?[A-Za-z][\w-]*", shown.split("Options", 1)[1])) - {
-            "--help",
-            "-h",
-        }
-        part = section(text, f"proc3s-{name}")
-        for option in options:
-            assert re.search(rf"[>\s,]{re.escape(option)}[<\s,]", part), f"{name} {option}"
-
-
-def test_every_field_of_a_domain_and_every_hook_is_in_the_reference(site):
-    from proc3s import hookspecs, specs
-
-    fields = (site / "reference/domain-yaml/index.html").read_text(encoding="utf-8")
-    kinds = (specs.DomainSpec, specs.TypeSpec, specs.FieldSpec, specs.SkillSpec, specs.ParamSpec)
-    for kind in (*kinds, specs.ConstraintSpec, specs.ScreenSpec, specs.TaskSpec, specs.ConstantSpec):
-        part = section(fields, kind.__name__.lower())
-        for name in kind.model_fields:
-            assert f"<code>{name}</code>" in part, f"{kind.__name__}.{name}"
-    hooks = (site / "reference/hooks/index.html").read_text(encoding="utf-8")
-    names = [name for name, value in vars(hookspecs).items() if hasattr(value, "proc3s_spec")]
-    assert len(names) == 12
-    for name in names:
-        assert f'id="{name}"' in hooks
-
-
-def test_every_public_name_is_in_the_reference(site):
-    import proc3s
-
-    text = (site / "reference/python/index.html").read_text(encoding="utf-8")
-    for name in proc3s.__all__:
-        assert f'id="{name.lower()}"' in text
 
 
 @needs_chromium

@@ -30,7 +30,7 @@ def render_prompt(
     from_: Annotated[
         Path | None, typer.Option("--from", help="run folder that has the earlier rounds")
     ] = None,
-    format_: Annotated[Format, typer.Option("--format")] = Format.text,
+    format_: Annotated[Format, typer.Option("--format", help="how messages are printed")] = Format.text,
     diff: Annotated[Path | None, typer.Option("--diff", help="compare with a rendering or a run")] = None,
     check: Annotated[
         Path | None,

@@ -1,0 +1,124 @@
+"""Whatever a person can type, write or import is in the generated reference and says what it is."""
+
+import inspect
+import re
+import sys
+from pathlib import Path
+
+import pytest
+import typer
+
+import proc3s
+from proc3s import events, hookspecs, specs, summary
+from proc3s.asking import CallOptions
+from proc3s.cli import app
+from proc3s.options import options_model
+from proc3s.registry import open_registry
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "docs" / "hooks"))
+
+import names
+import reference
+
+HOOKS = [name for name, value in vars(hookspecs).items() if hasattr(value, "proc3s_spec")]
+SPECS = [
+    value
+    for value in vars(specs).values()
+    if inspect.isclass(value) and issubclass(value, specs.Spec) and value is not specs.Spec
+]
+EVENTS = [
+    value
+    for value in vars(events).values()
+    if inspect.isclass(value) and issubclass(value, events.Event) and not value.__subclasses__()
+]
+UNITS = re.compile(
+    r"\b(m|mm|metres|rad|radians|s|seconds|dollars|units?|shape|columns|probability|likeliest)\b|\[0, 1",
+    re.IGNORECASE,
+)
+
+
+@pytest.fixture(scope="module")
+def pages():
+    return reference.pages()
+
+
+def section(page, heading):
+    """The part of a page under a heading of the second order."""
+    parts = re.split(r"^## (.+)$", page, flags=re.MULTILINE)
+    return dict(zip(parts[1::2], parts[2::2], strict=True))[heading]
+
+
+def commands(group, above=""):
+    for name, command in group.commands.items():
+        if hasattr(command, "commands"):
+            yield from commands(command, f"{above}{name} ")
+        else:
+            yield pytest.param(f"{above}{name}", command, id=f"{above}{name}")
+
+
+@pytest.mark.parametrize(("name", "command"), list(commands(typer.main.get_command(app))))
+def test_every_command_argument_and_option_is_in_the_reference(pages, name, command):
+    part = section(pages["reference/cli.md"], f"proc3s {name}")
+    assert command.help
+    assert command.help in part
+    for param in command.params:
+        assert param.help, f"{param.name} of proc3s {name} does not say what it is for"
+        for written in (*param.opts, *param.secondary_opts):
+            shown = written if written.startswith("-") else param.metavar or written.upper()
+            assert re.search(rf"(>|, |/ ){re.escape(shown)}(<|,| )", part), f"{shown} of proc3s {name}"
+
+
+@pytest.mark.parametrize("spec", SPECS, ids=lambda spec: spec.__name__)
+def test_every_field_of_a_spec_is_described_in_the_reference(pages, spec):
+    written = pages["reference/domain-yaml.md"] + pages["reference/hooks.md"]
+    part = "".join(re.findall(rf"^##+ {spec.__name__}$(.*?)(?=^##|\Z)", written, re.MULTILINE | re.DOTALL))
+    for name, info in spec.model_fields.items():
+        assert info.description, f"{spec.__name__}.{name} does not say what it is for"
+        assert f"<code>{name}</code>" in part, f"{spec.__name__}.{name}"
+
+
+def test_every_option_of_a_solver_or_model_is_described(pages):
+    registry = open_registry([])
+    entries = [spec for kind in (specs.SolverSpec, specs.LLMSpec) for spec in registry.all(kind).values()]
+    models = [CallOptions, *filter(None, map(options_model, entries))]
+    assert len(models) > 3
+    for model in models:
+        for name, info in model.model_fields.items():
+            assert info.description, f"{model.__name__}.{name} does not say what it is for"
+            assert f"{name}=…" in pages["reference/plugins.md"]
+
+
+@pytest.mark.parametrize("document", [summary.Summary, *EVENTS], ids=lambda document: document.__name__)
+def test_every_field_of_the_summary_and_the_log_is_described(pages, document):
+    for name, info in document.model_fields.items():
+        if name != "event":
+            assert info.description, f"{document.__name__}.{name} does not say what it is"
+            assert f"<code>{name}</code>" in pages["reference/run-folder.md"]
+
+
+def test_every_hook_is_in_the_reference(pages):
+    assert len(HOOKS) == 12
+    for name in HOOKS:
+        text = inspect.getdoc(getattr(hookspecs, name))
+        assert text
+        assert text in section(pages["reference/hooks.md"], name)
+
+
+@pytest.mark.parametrize("name", sorted(proc3s.__all__))
+def test_every_public_name_has_a_text(pages, name):
+    (shown,) = [entry for entry in names.public() if entry["name"] == name]
+    assert shown["doc"], f"{name} has no docstring"
+    assert shown["doc"] in section(pages["reference/python.md"], name)
+    for method in shown["methods"]:
+        assert method["doc"], f"{name}.{method['name']} has no docstring"
+
+
+@pytest.mark.parametrize("name", sorted(proc3s.__all__))
+def test_numbers_of_public_names_have_a_unit(name):
+    (shown,) = [entry for entry in names.public() if entry["name"] == name]
+    for field in shown["fields"]:
+        if re.search(r"\bfloat\b|FloatArray", field["type"]):
+            assert UNITS.search(f"{shown['doc']} {field['says']}"), f"{name}.{field['name']} has no unit"
+    for method in [shown, *shown["methods"]]:
+        if re.search(r"\bfloat\b|FloatArray", method["signature"]):
+            assert UNITS.search(f"{shown['doc']} {method['doc']}"), f"{name}: {method['signature']}"
