@@ -1,9 +1,8 @@
-"""What mkdocs calls while it builds the site: generated pages, pictures, and a place in the menu for all."""
+"""What mkdocs calls while it builds the site: generated pages, pictures, names of files over examples."""
 
 import re
 import sys
 from pathlib import Path
-from typing import Any
 
 from mkdocs.config.defaults import MkDocsConfig
 from mkdocs.structure.files import File, Files
@@ -18,27 +17,6 @@ _TITLED = re.compile(r"^<!-- file: (\S+) -->\n(`{3,})(\w+)$", re.MULTILINE)
 _ROOT = Path(__file__).parents[2]
 _OF_ROOT = {"SECURITY.md": "security.md", "CHANGELOG.md": "changelog.md"}
 """Files beside the docs that are pages of the site, too."""
-_SECTIONS = {
-    "tutorial": "Tutorial",
-    "how-to": "How to",
-    "explanation": "Explanation",
-    "reference": "Reference",
-}
-
-
-def on_config(config: MkDocsConfig) -> MkDocsConfig:
-    """Add pages that no section lists to that of their folder."""
-    sections: dict[str, list[Any]] = {}
-    for entry in config.nav or []:
-        if isinstance(entry, dict):
-            sections |= {name: pages for name, pages in entry.items() if isinstance(pages, list)}
-    listed = {page for pages in sections.values() for page in pages}
-    docs = Path(config.docs_dir)
-    for path in sorted(docs.glob("*/*.md")):
-        page = path.relative_to(docs).as_posix()
-        if page not in listed and path.parent.name in _SECTIONS:
-            sections[_SECTIONS[path.parent.name]].append(page)
-    return config
 
 
 def on_files(files: Files, config: MkDocsConfig) -> Files:

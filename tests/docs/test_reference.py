@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 import typer
+import yaml
 
 import proc3s
 from proc3s import events, hookspecs, specs, summary
@@ -20,6 +21,7 @@ sys.path.insert(0, str(Path(__file__).parents[2] / "docs" / "hooks"))
 import names
 import reference
 
+ROOT = Path(__file__).parents[2]
 HOOKS = [name for name, value in vars(hookspecs).items() if hasattr(value, "proc3s_spec")]
 SPECS = [
     value
@@ -122,3 +124,20 @@ def test_numbers_of_public_names_have_a_unit(name):
     for method in [shown, *shown["methods"]]:
         if re.search(r"\bfloat\b|FloatArray", method["signature"]):
             assert UNITS.search(f"{shown['doc']} {method['doc']}"), f"{name}: {method['signature']}"
+
+
+def entries(nav):
+    for entry in nav:
+        value = next(iter(entry.values())) if isinstance(entry, dict) else entry
+        yield from [value] if isinstance(value, str) else entries(value)
+
+
+def test_every_page_is_in_the_menu(pages):
+    settings = yaml.safe_load((ROOT / "mkdocs.yml").read_text(encoding="utf-8"))
+    listed = set(entries(settings["nav"]))
+    written = {path.relative_to(ROOT / "docs").as_posix() for path in (ROOT / "docs").rglob("*.md")}
+    assert not written - listed, "pages of docs/ that nav in mkdocs.yml does not list"
+    # Pages of domains depend on what is installed; "What is installed" leads to them.
+    made = {*(page for page in pages if "/domain-" not in page), "reference/domain-yaml.md"}
+    assert not made - listed, "generated pages that nav in mkdocs.yml does not list"
+    assert not listed - written - made - {"gallery.md", "security.md", "changelog.md"}, "nav lists no page"

@@ -90,13 +90,6 @@ def test_no_link_is_broken_and_nothing_is_loaded_from_elsewhere(site):
                 assert unquote(parts.fragment) in seen[target].names, f"{page} leads to {link}"
 
 
-def test_every_page_of_the_docs_is_in_the_menu(site):
-    home = Links((site / "index.html").read_text(encoding="utf-8")).links
-    for page in (ROOT / "docs").rglob("*.md"):
-        name = page.relative_to(ROOT / "docs").with_suffix("").as_posix()
-        assert name == "index" or f"{name}/" in home, f"no menu leads to {name}"
-
-
 @needs_chromium
 def test_a_browser_opens_every_page_and_asks_nobody_else(site, address):
     with visiting() as open_page:
