@@ -44,6 +44,8 @@ class RunStarted(Event):
     """Samples that a round may take."""
     scene: str
     """The initial state as JSON."""
+    goal: str = ""
+    """The instruction in plain language."""
 
 
 class RunResumed(Event):

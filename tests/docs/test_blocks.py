@@ -1,13 +1,16 @@
 """Blocks of the docs that are no commands: they are part of an example that runs, or they are valid."""
 
 import re
+import shlex
 import tomllib
 from pathlib import Path
 
 import pytest
+import typer
 import yaml
 from pydantic import TypeAdapter
 
+from proc3s.cli import app
 from proc3s.specs import ConstraintSpec, DomainSpec, SkillSpec
 from proc3s_tabletop.body_specs import SHAPES
 
@@ -68,3 +71,30 @@ def test_files_of_a_page_are_used_by_its_commands(page):
             others = "\n".join(other["body"] for other in found if other.start() != block.start())
             known = (name.name, name.stem, *(part for part in (name.parent.name,) if part))
             assert any(part in others for part in known), f"no command reads {name}"
+
+
+def understood(words):
+    """Whether the command line takes these words: its commands, options and how many arguments."""
+    command = typer.main.get_command(app)
+    while hasattr(command, "commands"):
+        command = command.commands[words.pop(0)]
+    command.make_context("", words)
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_commands_that_need_a_model_are_understood(page):
+    for block in blocks(page):
+        if block["language"] == "sh":
+            for command in re.findall(r"^(?:.* && )?proc3s (.*)$", block["body"], re.MULTILINE):
+                understood(shlex.split(command, comments=True))
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_commands_and_options_in_the_text_exist(page):
+    text = BLOCK.sub("", page.read_text(encoding="utf-8"))
+    for mention in re.findall(r"`proc3s ([a-z][^`]*)`", text):
+        command, words = typer.main.get_command(app), mention.split()
+        while hasattr(command, "commands") and words:
+            command = command.commands[words.pop(0)]
+        options = {name for param in command.params for name in param.opts}
+        assert {word for word in words if word.startswith("-")} <= options, mention

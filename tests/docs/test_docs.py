@@ -2,7 +2,6 @@
 
 import os
 import re
-import shlex
 import subprocess
 import sys
 from pathlib import Path
@@ -102,13 +101,3 @@ def test_links_lead_somewhere(page: Path) -> None:
     for pair in links(page):
         target = next(filter(None, pair))
         assert (page.parent / target).exists(), target
-
-
-def test_commands_in_the_readme_name_things_that_exist() -> None:
-    for line in re.findall(r"^proc3s .*$", (ROOT / "README.md").read_text(encoding="utf-8"), re.MULTILINE):
-        command = shlex.split(line, comments=True)
-        code, printed = run(f"{shlex.join(command[:2])} --help", ROOT)
-        assert code == 0
-        for option in command[2:]:
-            if option.startswith("-"):
-                assert option in printed

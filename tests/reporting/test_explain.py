@@ -111,7 +111,7 @@ def test_every_beginning_of_a_log_can_be_explained(two_rounds):
 
 
 def test_a_log_of_an_earlier_version(cli, two_rounds, rewrite):
-    for name in ("dims", "goal_expected", "rehearsals", "id", "log"):
+    for name in ("dims", "goal", "goal_expected", "rehearsals", "id", "log"):
         rewrite(two_rounds, lambda event, name=name: {k: v for k, v in event.items() if k != name})
     assert "solved in round 1" in cli("explain", "two").stdout
 

@@ -108,6 +108,7 @@ def test_pages_of_other_runs(cli, stub, failing, here, two_rounds, rewrite):
     for method in ("cap", "llm3"):
         cli("run", "drawing/star", "--method", method, "--out", method)
         assert cli("report", method).code == 0
+        assert "Draw a star with at least five points." in (here / method / "report.html").read_text()
 
 
 def test_a_page_is_the_same_every_time(two_rounds):

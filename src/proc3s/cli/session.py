@@ -218,6 +218,7 @@ class Session:
             versions=versions(),
             samples=self._problem.samples,
             scene=self._problem.scene,
+            goal=self._problem.goal,
         )
 
     def _asker(self) -> Callable[[], Propose]:

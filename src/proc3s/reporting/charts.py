@@ -102,8 +102,8 @@ def _draw(
         axes.scatter(x[here], y[here], s=6, color=color, alpha=0.55, linewidths=0, rasterized=True)
     axes.scatter(x[accepted], y[accepted], s=90, marker="*", color=_ACCEPTED, zorder=3)
     axes.set_xlabel(name[:40])
-    if (low, high) == (0.0, 1.0):
-        axes.set_xlim(-0.03, 1.03)
+    margin = 0.03 * (high - low) or 0.5  # a sampler may allow one value only
+    axes.set_xlim(low - margin, high + margin)
     axes.set_ylim(min(samples.reached) - 0.5, max(samples.reached) + 0.5)
     axes.yaxis.set_major_locator(MaxNLocator(integer=True, nbins=6, min_n_ticks=1))
 

@@ -27,7 +27,7 @@ def explained(story: Story, folders: Sequence[Path]) -> dict[str, Any]:
         "task": story.task,
         "seed": story.options.get("seed"),
         "method": story.options.get("method"),
-        "goal": story.options.get("goal"),
+        "goal": story.goal,
         "solved": story.solved,
         "ended": story.summary is not None,
         "error": story.error,

@@ -80,10 +80,11 @@ class Story(BaseModel):
     model_config = ConfigDict(frozen=True)
 
     run: Path
-    id: str = ""
     began: str | None = None
     options: dict[str, Any] = {}
     versions: dict[str, str] = {}
+    goal: str | None = None
+    """The instruction; None where an earlier version's log does not say it."""
     budget: int | None = None
     """Samples that a round may take."""
     rounds: tuple[Round, ...] = ()
@@ -133,11 +134,12 @@ def _story(run: Path, log: Log) -> Story:
     rounds: list[Round] = []
     for number in numbers:
         rounds.append(_round(number, _latest(log, number), executed, rounds[-1] if rounds else None))
+    options = resumed.get("options") or begun.get("options") or {}
     return Story(
         run=run,
-        id=begun.get("id", ""),
         began=begun.get("time"),
-        options=resumed.get("options") or begun.get("options") or {},
+        options=options,
+        goal=begun.get("goal") or options.get("goal"),
         versions=begun.get("versions", {}),
         budget=begun.get("samples"),
         rounds=tuple(rounds),
