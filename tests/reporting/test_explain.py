@@ -70,9 +70,18 @@ def test_candidates_are_told_apart(cli, stub, failing):
     )
     assert ran.code == 0, ran.stderr
     done = cli("explain", "run")
-    assert "Program 0 of 3" in done.stdout
-    assert "Program 2 of 3" in done.stdout
+    assert "Candidate 0, of 3" in done.stdout
+    assert "Candidate 2, of 3" in done.stdout
     assert "program-0.1.py" in done.stdout
+
+
+def test_advice_does_not_contradict_itself(cli, stub, failing):
+    """All fail in one place, yet how narrowly depends on a number."""
+    answer = failing.wider.replace("0.5, y, x", "-0.5, y, x")
+    given = ("--goal", "two", "--samples", 90, "--feedback", 0)
+    cli("run", "drawing/free", *given, "--llm", stub(answer), "--out", "run")
+    (program,) = cli("explain", "run", "--json").json["rounds"][0]["programs"]
+    assert [item["kind"] for item in program["look"]] == ["narrow"]
 
 
 def test_a_plan_that_was_carried_out_though_it_violates(cli, stub, failing):

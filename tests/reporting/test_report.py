@@ -103,7 +103,7 @@ def test_pages_of_other_runs(cli, stub, failing, here, two_rounds, rewrite):
     )
     assert cli("report", "many").code == 0
     text = (here / "many" / "report.html").read_text()
-    assert "Program 2 of 3" in text
+    assert "Candidate 2, of 3" in text
     assert 'class="hll"' in text  # the line of the error
     for method in ("cap", "llm3"):
         cli("run", "drawing/star", "--method", method, "--out", method)

@@ -32,7 +32,7 @@ _LONGEST = 400_000
 def page(story: Story, folders: Sequence[Path]) -> str:
     """The page. Raises UsageError or SpecError for a template that is missing or does not render."""
     words = Words(folders, html=True)
-    css = words.render("report.css") + _highlighting()
+    css = _highlighting() + words.render("report.css")
     colors = charts.colors_of(sorted({v for p in story.programs for v in p.samples.violation if v}))
     return words.render(
         "report.j2",

@@ -26,9 +26,11 @@ def of_program(program: Program, story: Story) -> tuple[Pointer, ...]:
     diagnosis = program.diagnosis
     if diagnosis is None or program.ending == "solved":
         return ()
-    found = [*_errors(diagnosis), *_numbers(diagnosis, program)]
+    numbers = list(_numbers(diagnosis, program))
+    found = [*_errors(diagnosis), *numbers]
     if always := _always(diagnosis):
-        found.append(Pointer(kind="always", facts=always.model_dump()))
+        if not numbers:  # else other numbers may help
+            found.append(Pointer(kind="always", facts=always.model_dump()))
     elif _hopeful(diagnosis, story):
         found.append(Pointer(kind="more_samples", facts={"samples": _HOPEFUL * diagnosis.samples}))
     if any(report.constraint == "goal" for report in diagnosis.constraints):
@@ -37,7 +39,7 @@ def of_program(program: Program, story: Story) -> tuple[Pointer, ...]:
         found.append(
             Pointer(kind="screens", facts={"checked": program.audited[0], "wrong": program.audited[1]})
         )
-    given = {"file": program.file if program.source is not None else "The answer", "run": str(story.run)}
+    given = {"file": program.file if program.source is not None else "the answer", "run": str(story.run)}
     return tuple(Pointer(kind=p.kind, facts={**p.facts, **given}) for p in found)
 
 
