@@ -44,6 +44,11 @@ def pages():
     return reference.pages()
 
 
+@pytest.fixture(scope="module")
+def public():
+    return {entry["name"]: entry for entry in names.public()}
+
+
 def section(page, heading):
     """The part of a page under a heading of the second order."""
     parts = re.split(r"^## (.+)$", page, flags=re.MULTILINE)
@@ -107,8 +112,8 @@ def test_every_hook_is_in_the_reference(pages):
 
 
 @pytest.mark.parametrize("name", sorted(proc3s.__all__))
-def test_every_public_name_has_a_text(pages, name):
-    (shown,) = [entry for entry in names.public() if entry["name"] == name]
+def test_every_public_name_has_a_text(pages, public, name):
+    shown = public[name]
     assert shown["doc"], f"{name} has no docstring"
     assert shown["doc"] in section(pages["reference/python.md"], name)
     for method in shown["methods"]:
@@ -116,8 +121,8 @@ def test_every_public_name_has_a_text(pages, name):
 
 
 @pytest.mark.parametrize("name", sorted(proc3s.__all__))
-def test_numbers_of_public_names_have_a_unit(name):
-    (shown,) = [entry for entry in names.public() if entry["name"] == name]
+def test_numbers_of_public_names_have_a_unit(public, name):
+    shown = public[name]
     for field in shown["fields"]:
         if re.search(r"\bfloat\b|FloatArray", field["type"]):
             assert UNITS.search(f"{shown['doc']} {field['says']}"), f"{name}.{field['name']} has no unit"
