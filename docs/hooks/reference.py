@@ -13,7 +13,7 @@ from proc3s import events, hookspecs, specs, summary
 from proc3s.asking import CallOptions
 from proc3s.cli import app
 from proc3s.options import options_model
-from proc3s.registry import Registry, open_registry
+from proc3s.registry import KINDS, Registry, open_registry
 
 
 def pages() -> dict[str, str]:
@@ -140,8 +140,8 @@ def hooks() -> list[dict[str, str]]:
 
 def _registered() -> list[dict[str, Any]]:
     """The specs that hooks take, beside those of a domain."""
-    kinds = (specs.SamplerSpec, specs.MethodSpec, specs.PresetSpec, specs.SolverSpec)
-    return tables(*kinds, specs.LLMSpec, specs.ExecutorSpec, specs.TemplatesSpec)
+    in_domains = {spec["name"] for spec in tables(specs.DomainSpec)}
+    return [spec for spec in tables(*KINDS.values()) if spec["name"] not in in_domains]
 
 
 def _events() -> list[dict[str, Any]]:
@@ -170,8 +170,7 @@ def _described(model: type[BaseModel]) -> list[dict[str, str]]:
 
 def _plugins(registry: Registry) -> dict[str, Any]:
     """What is installed, by kind; solvers and backends with their options."""
-    kinds = (specs.MethodSpec, specs.PresetSpec, specs.SolverSpec, specs.LLMSpec)
-    kinds += (specs.ExecutorSpec, specs.SamplerSpec, specs.TemplatesSpec)
+    kinds = [cls for cls in KINDS.values() if cls is not specs.DomainSpec]
     found = {cls.kind: [_listed(spec) for spec in registry.all(cls).values()] for cls in kinds}
     return {
         "kinds": found,
@@ -182,8 +181,11 @@ def _plugins(registry: Registry) -> dict[str, Any]:
 
 def _listed(spec: Any) -> dict[str, Any]:
     model = options_model(spec) if isinstance(spec, specs.SolverSpec | specs.LLMSpec) else None
-    usage = getattr(spec, "usage", "")
-    return {"name": spec.name, "summary": spec.summary, "usage": usage, "options": _options(model)}
+    summary, usage = (
+        getattr(spec, "summary", None) or f"A violation says: {spec.says}.",
+        getattr(spec, "usage", ""),
+    )
+    return {"name": spec.name, "summary": summary, "usage": usage, "options": _options(model)}
 
 
 def _options(model: type[BaseModel] | None) -> list[dict[str, str]]:

@@ -14,7 +14,7 @@ from proc3s import events, hookspecs, specs, summary
 from proc3s.asking import CallOptions
 from proc3s.cli import app
 from proc3s.options import options_model
-from proc3s.registry import open_registry
+from proc3s.registry import KINDS, open_registry
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "docs" / "hooks"))
 
@@ -23,11 +23,8 @@ import reference
 
 ROOT = Path(__file__).parents[2]
 HOOKS = [name for name, value in vars(hookspecs).items() if hasattr(value, "proc3s_spec")]
-SPECS = [
-    value
-    for value in vars(specs).values()
-    if inspect.isclass(value) and issubclass(value, specs.Spec) and value is not specs.Spec
-]
+SPECS = {value for value in vars(specs).values() if inspect.isclass(value) and issubclass(value, specs.Spec)}
+SPECS = sorted((SPECS | set(KINDS.values())) - {specs.Spec}, key=lambda spec: spec.__name__)
 EVENTS = [
     value
     for value in vars(events).values()
@@ -141,8 +138,9 @@ def test_every_page_is_in_the_menu(pages):
     settings = yaml.safe_load((ROOT / "mkdocs.yml").read_text(encoding="utf-8"))
     listed = set(entries(settings["nav"]))
     written = {path.relative_to(ROOT / "docs").as_posix() for path in (ROOT / "docs").rglob("*.md")}
-    assert not written - listed, "pages of docs/ that nav in mkdocs.yml does not list"
+    assert sorted(written - listed) == [], "nav in mkdocs.yml must list these pages of docs/"
     # Pages of domains depend on what is installed; "What is installed" leads to them.
     made = {*(page for page in pages if "/domain-" not in page), "reference/domain-yaml.md"}
-    assert not made - listed, "generated pages that nav in mkdocs.yml does not list"
-    assert not listed - written - made - {"gallery.md", "security.md", "changelog.md"}, "nav lists no page"
+    assert sorted(made - listed) == [], "nav in mkdocs.yml must list these generated pages"
+    of_root = {"gallery.md", "security.md", "changelog.md"}
+    assert sorted(listed - written - made - of_root) == [], "nav in mkdocs.yml lists pages that are not there"
