@@ -19,6 +19,13 @@ _OF_ROOT = {"SECURITY.md": "security.md", "CHANGELOG.md": "changelog.md"}
 """Files beside the docs that are pages of the site, too."""
 
 
+def on_config(config: MkDocsConfig) -> MkDocsConfig:
+    """Put what is generated besides, such as a page for each domain, at the end of the reference."""
+    section = next(entry["Reference"] for entry in config.nav or [] if "Reference" in entry)
+    section += [page for page in reference.pages() if page not in section]
+    return config
+
+
 def on_files(files: Files, config: MkDocsConfig) -> Files:
     """Add what is made by the program: the reference, and a gallery of runs."""
     made: dict[str, str | bytes] = {**reference.pages(), **gallery.files()}

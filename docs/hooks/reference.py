@@ -181,10 +181,8 @@ def _plugins(registry: Registry) -> dict[str, Any]:
 
 def _listed(spec: Any) -> dict[str, Any]:
     model = options_model(spec) if isinstance(spec, specs.SolverSpec | specs.LLMSpec) else None
-    summary, usage = (
-        getattr(spec, "summary", None) or f"A violation says: {spec.says}.",
-        getattr(spec, "usage", ""),
-    )
+    summary = spec.summary if hasattr(spec, "summary") else f"A violation says: {spec.says}."
+    usage = getattr(spec, "usage", "")
     return {"name": spec.name, "summary": summary, "usage": usage, "options": _options(model)}
 
 
