@@ -4,7 +4,9 @@ import inspect
 from collections.abc import Iterator
 from typing import Any
 
+import models
 import names
+import toolbox
 import typer
 from pydantic import BaseModel
 from words import render
@@ -21,7 +23,7 @@ def pages() -> dict[str, str]:
     registry = open_registry([])
     return {
         "reference/cli.md": render("cli.md.j2", commands=commands()),
-        "reference/domain-yaml.md": render("specs.md.j2", specs=tables(specs.DomainSpec)),
+        "reference/domain-yaml.md": render("specs.md.j2", specs=models.tables(specs.DomainSpec)),
         "reference/hooks.md": render("hooks.md.j2", hooks=hooks(), specs=_registered()),
         "reference/python.md": render("python.md.j2", names=names.public()),
         "reference/run-folder.md": render(
@@ -29,6 +31,7 @@ def pages() -> dict[str, str]:
         ),
         "reference/plugins.md": render("plugins.md.j2", **_plugins(registry)),
         **{f"reference/{name}.md": text for name, text in _domains(registry)},
+        **toolbox.pages(),
     }
 
 
@@ -65,71 +68,6 @@ def _option(param: Any) -> dict[str, Any]:
     return {"name": f"{names} {value}".strip(), "help": param.help or ""}
 
 
-def tables(*roots: type[BaseModel]) -> list[dict[str, Any]]:
-    """A table of fields for each model and for all that it is made of, in the order of their mention."""
-    found: dict[str, dict[str, Any]] = {}
-    for root in roots:
-        schema = root.model_json_schema()
-        parts = {root.__name__: schema, **schema.get("$defs", {})}
-        for name in _mentioned(root.__name__, parts):
-            found.setdefault(name, _table(name, parts[name]))
-    return list(found.values())
-
-
-def _mentioned(name: str, parts: dict[str, Any]) -> list[str]:
-    order = [name]
-    for known in order:  # it grows while it is read
-        order += [n for n in _references(parts[known].get("properties", {})) if n not in order]
-    return list(dict.fromkeys(order))
-
-
-def _references(schema: Any) -> Iterator[str]:
-    if isinstance(schema, dict):
-        if "$ref" in schema:
-            yield schema["$ref"].rsplit("/", 1)[-1]
-        schema = list(schema.values())
-    if isinstance(schema, list):
-        for part in schema:
-            yield from _references(part)
-
-
-def _table(name: str, schema: dict[str, Any]) -> dict[str, Any]:
-    required = schema.get("required", ())
-    fields = [
-        {
-            "name": field,
-            "type": _type(part),
-            "default": "required" if field in required else _default(part.get("default")),
-            "says": part.get("description", ""),
-        }
-        for field, part in schema.get("properties", {}).items()
-    ]
-    return {"name": name, "says": schema.get("description", ""), "fields": fields}
-
-
-def _type(schema: dict[str, Any]) -> str:
-    """The type of a field in words; specs link to their table."""
-    if "$ref" in schema:
-        name = schema["$ref"].rsplit("/", 1)[-1]
-        return f"[{name}](#{name.lower()})"
-    if "const" in schema or "enum" in schema:
-        return ", ".join(f"`{value}`" for value in schema.get("enum", [schema.get("const")]))
-    if "anyOf" in schema:
-        return " or ".join(_type(part) for part in schema["anyOf"] if part.get("type") != "null")
-    if schema.get("type") == "array":
-        return f"list of {_type(schema['items'])}" if schema.get("items") else "list"
-    if schema.get("type") == "object":
-        inner = schema.get("additionalProperties") or next(
-            iter(schema.get("patternProperties", {}).values()), None
-        )
-        return f"mapping of name to {_type(inner)}" if isinstance(inner, dict) else "mapping"
-    return str(schema.get("type", "anything"))
-
-
-def _default(value: Any) -> str:
-    return "" if value in (None, [], {}, "") else str(value)
-
-
 def hooks() -> list[dict[str, str]]:
     """Every hook with its signature and what it is for."""
     found = [f for name, f in vars(hookspecs).items() if inspect.isfunction(f) and hasattr(f, "proc3s_spec")]
@@ -140,8 +78,8 @@ def hooks() -> list[dict[str, str]]:
 
 def _registered() -> list[dict[str, Any]]:
     """The specs that hooks take, beside those of a domain."""
-    in_domains = {spec["name"] for spec in tables(specs.DomainSpec)}
-    return [spec for spec in tables(*KINDS.values()) if spec["name"] not in in_domains]
+    in_domains = {spec["name"] for spec in models.tables(specs.DomainSpec)}
+    return [spec for spec in models.tables(*KINDS.values()) if spec["name"] not in in_domains]
 
 
 def _events() -> list[dict[str, Any]]:
@@ -190,7 +128,7 @@ def _options(model: type[BaseModel] | None) -> list[dict[str, str]]:
     return [
         {
             "name": name,
-            "default": "required" if info.is_required() else _default(info.default),
+            "default": "required" if info.is_required() else models.default(info.default),
             "says": info.description or "",
         }
         for name, info in (model.model_fields.items() if model else ())

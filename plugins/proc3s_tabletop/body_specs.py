@@ -25,11 +25,15 @@ class BodySpec(BaseModel):
     made: ClassVar[type[Any]]
 
     shape: str
+    """Its kind."""
     mass: Length
     """kg"""
     friction: Friction = 0.6
+    """Coefficient of sliding."""
     rolling_friction: Friction = 0.0
+    """Coefficient of rolling, m."""
     spinning_friction: Friction = 0.0
+    """Coefficient of turning on the spot, m."""
 
     def body(self, folder: Path | None) -> Body:
         """The body; files are looked for in `folder`."""
@@ -47,6 +51,7 @@ class BoxSpec(BodySpec):
 
     made: ClassVar[type[Any]] = Box
     shape: Literal["box"]
+    """Its kind."""
     size: tuple[Length, Length, Length]
     """Edges along x, y and z, m."""
 
@@ -56,8 +61,11 @@ class CylinderSpec(BodySpec):
 
     made: ClassVar[type[Any]] = Cylinder
     shape: Literal["cylinder"]
+    """Its kind."""
     radius: Length
+    """m"""
     height: Length
+    """m"""
 
 
 class BowlSpec(BodySpec):
@@ -65,11 +73,17 @@ class BowlSpec(BodySpec):
 
     made: ClassVar[type[Any]] = Bowl
     shape: Literal["bowl"]
+    """Its kind."""
     rim_radius: Length = Bowl.rim_radius
+    """Outer radius at the top, m."""
     foot_radius: Length = Bowl.foot_radius
+    """Outer radius at the bottom, m."""
     height: Length = Bowl.height
+    """m"""
     wall: Length = Bowl.wall
+    """Thickness, m."""
     wedges: int = Field(Bowl.wedges, ge=6, le=64)
+    """Convex pieces of the wall, around."""
 
     @model_validator(mode="after")
     def _hollow(self) -> "BowlSpec":
@@ -82,6 +96,7 @@ class MeshSpec(BodySpec):
     """`{shape: mesh, path: meshes/cup.stl, mass: 0.2}`: any file that trimesh reads: STL, OBJ, PLY."""
 
     shape: Literal["mesh"]
+    """Its kind."""
     path: str
     """A file beside the `domain.yaml`."""
     scale: Length = 1.0
@@ -101,13 +116,17 @@ class YcbSpec(BaseModel):
     model_config = BodySpec.model_config
 
     shape: Literal["ycb"]
+    """Its kind."""
     model: str
     """With its number or without."""
     mass: Length | None = None
-    """kg"""
+    """kg; by default that of the table, as what follows."""
     friction: Friction | None = None
+    """Coefficient of sliding."""
     rolling_friction: Friction | None = None
+    """Coefficient of rolling, m."""
     spinning_friction: Friction | None = None
+    """Coefficient of turning on the spot, m."""
 
     @field_validator("model")
     @classmethod

@@ -37,9 +37,11 @@ class Entry(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
 
     category: str
+    """A key of `bodies`."""
     color: str | tuple[str, ...] = ""
     """A colour, or several of which each object gets one by chance."""
     count: int = Field(1, ge=1, le=100)
+    """How many of them."""
     apart: Length = 0.0
     """Least distance of its centre from that of any other on the table, m, if more than the scene's."""
     within: tuple[Span, Span] | None = None

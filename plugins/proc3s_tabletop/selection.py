@@ -11,11 +11,14 @@ from proc3s.specfile import validate
 class Selector(BaseModel):
     """Objects that have one of the given names, categories and colours; what is left out is free."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
 
     name: str | tuple[str, ...] = ()
+    """`object_0`, …"""
     category: str | tuple[str, ...] = ()
+    """A key of `bodies`."""
     color: str | tuple[str, ...] = ()
+    """As in the scene."""
 
     def matches(self, name: str, category: str, color: str) -> bool:
         """Whether an object is meant."""

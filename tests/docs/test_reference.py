@@ -15,6 +15,9 @@ from proc3s.asking import CallOptions
 from proc3s.cli import app
 from proc3s.options import options_model
 from proc3s.registry import KINDS, open_registry
+from proc3s_tabletop.body_specs import SHAPES
+from proc3s_tabletop.scenes import Entry
+from proc3s_tabletop.selection import Selector
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "docs" / "hooks"))
 
@@ -79,6 +82,13 @@ def test_every_field_of_a_spec_is_described_in_the_reference(pages, spec):
     for name, info in spec.model_fields.items():
         assert info.description, f"{spec.__name__}.{name} does not say what it is for"
         assert f"<code>{name}</code>" in part, f"{spec.__name__}.{name}"
+
+
+@pytest.mark.parametrize("spec", [*SHAPES.values(), Entry, Selector], ids=lambda spec: spec.__name__)
+def test_every_field_of_the_toolbox_is_described(pages, spec):
+    for name, info in spec.model_fields.items():
+        assert info.description, f"{spec.__name__}.{name} does not say what it is for"
+        assert f"<code>{name}</code>" in pages["reference/table-top.md"]
 
 
 def test_every_option_of_a_solver_or_model_is_described(pages):
