@@ -38,14 +38,14 @@ class Foresight:
         """The steps of the longest plan."""
         return range(int(self._lengths.max(initial=0)))
 
-    def at(self, step: int, skill: str) -> tuple[Rows, FloatArray]:
-        """The plans whose step is this skill, and its three parameters, shape (rows, 3)."""
+    def at(self, step: int, skill: str, width: int = 3) -> tuple[Rows, FloatArray]:
+        """The plans whose step is this skill, and the columns of its parameters, shape (rows, width)."""
         batch = self._batch
         rows = np.flatnonzero(self.open & (self._lengths > step))
         actions = batch.start[rows] + step
-        known = np.array([s.skill == skill and skill in self._skills for s in batch.signatures])
+        known = np.array([s.skill == skill for s in batch.signatures])
         mine = known[batch.skill[actions]]
-        values = batch.values[batch.offset[actions[mine], None] + np.arange(3)]
+        values = batch.values[batch.offset[actions[mine], None] + np.arange(width)]
         return rows[mine], values
 
     def args(self, constraint: str) -> Mapping[str, Any]:

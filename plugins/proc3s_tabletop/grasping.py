@@ -10,7 +10,7 @@ from proc3s_tabletop.contacts import company, hand_clearances
 from proc3s_tabletop.motion import Line, contact, follow, line_down, put, travel
 from proc3s_tabletop.settling import compare, rest
 from proc3s_tabletop.telemetry import Clearance, least
-from proc3s_tabletop.things import Frame, Held
+from proc3s_tabletop.things import Frame, Held, Things
 from proc3s_tabletop.workbench import Workbench
 
 INSIDE = 0.85
@@ -40,21 +40,24 @@ def between_fingers(attempt: Attempt) -> str:
 
     Friction alone would hold what is gripped by an edge; a real grip would not, hence the least cover.
     """
-    scene = attempt.scene
-    starts, ends = _rays(attempt)
-    hits = [hit[0] for hit in scene.client.rayTestBatch(starts, ends)]
-    counts = {name: hits.count(body) for name, body in scene.bodies.items()}
-    name = max(counts, key=lambda n: counts[n], default=None)
-    cover = counts[name] / len(hits) if name else 0.0
-    attempt.note(cover=cover, target=name if cover > 0 else None)
-    if name is None or cover < attempt.recipe.min_cover:
+    shares = cover(attempt.scene)
+    name = max(shares, key=lambda n: shares[n], default=None)
+    most = shares[name] if name else 0.0
+    attempt.note(cover=most, target=name if most > 0 else None)
+    if name is None or most < attempt.recipe.min_cover:
         attempt.stop("grasp")
     return name
 
 
-def _rays(attempt: Attempt) -> tuple[list[list[float]], list[list[float]]]:
+def cover(things: Things) -> dict[str, float]:
+    """The share of the grid of rays between the pads that meets each object, by name."""
+    hits = [hit[0] for hit in things.client.rayTestBatch(*_rays(things))]
+    return {name: hits.count(body) / len(hits) for name, body in things.bodies.items()}
+
+
+def _rays(things: Things) -> tuple[list[list[float]], list[list[float]]]:
     """Where the rays between the pads start and end, each way over the pads' width and along the fingers."""
-    recipe, robot = attempt.recipe, attempt.scene.robot
+    recipe, robot = things.recipe, things.robot
     left, right = robot.pads()
     point, along = robot.grasp_point()
     middle = (left + right) / 2

@@ -52,7 +52,8 @@ class RigidPoseMethods(PoseMethods):
         if level < 1e-9:  # straight up or down: roll and yaw share one turn
             roll, yaw = 0.0, np.arctan2(-turn[0, 1], turn[1, 1])
         point = self.point + self.rotation @ other.point
-        return type(self)(*map(float, (*point, roll, np.arctan2(-turn[2, 0], level), yaw)))  # type: ignore[call-arg]
+        make: Any = type(self)
+        return make(*map(float, (*point, roll, np.arctan2(-turn[2, 0], level), yaw)))
 
 
 class ObjectMethods:

@@ -4,5 +4,6 @@ from proc3s import ScreenSpec
 
 SCREENS = (
     ScreenSpec(name="geometry", target="proc3s_tabletop.screens:geometry"),
+    ScreenSpec(name="grasps", target="proc3s_tabletop.grasp_screen:grasps"),
     ScreenSpec(name="reach", target="proc3s_tabletop.screens:reach"),
 )

@@ -108,8 +108,8 @@ class TypeSpec(Spec):
 class ConstantSpec(Spec):
     """A named constant that programs may use."""
 
-    value: int | float | str | list[Any]
-    """The value, a number, a text, or a (nested) list of them."""
+    value: int | float | str | list[Any] | dict[str, Any]
+    """The value: a number, a text, or a (nested) list or dict of them."""
     says: str = ""
     """A few words for the reader of the prompt."""
 

@@ -4,6 +4,7 @@ import pytest
 
 TASKS = {f"drawing/{t}" for t in ("star", "arrow", "letters", "enclosed", "free")}
 TASKS |= {f"blocks/{t}" for t in ("pyramid", "line", "packing", "unstack")}
+TASKS |= {"ycb/packing", "ycb/stacking"}
 
 
 def test_help_names_every_command(cli):

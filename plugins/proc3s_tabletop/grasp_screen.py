@@ -1,0 +1,96 @@
+"""A vectorised screen of grasps: what fails for a lone body fails beside others, too."""
+
+from collections.abc import Callable, Mapping
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from proc3s import Domain, FloatArray, PlanBatch, State
+from proc3s_tabletop.body_specs import bodies_of, body_of
+from proc3s_tabletop.constraints import PAD_WIDTH, UNMEASURED
+from proc3s_tabletop.foresight import WORLD, Foresight, Verdicts
+from proc3s_tabletop.layout import Bools
+from proc3s_tabletop.lone_grasps import LoneGrasps, lone_grasps
+from proc3s_tabletop.recipe import Recipe
+
+RECIPE = Recipe()
+FUNCTION = f"{WORLD}:pick_object"
+NEAR = 2e-4
+"""A hand that is deeper in the body than the world allows by less than this may pass, m."""
+SPARE = 0.05
+"""A cover by this much under the least may be enough in the world: one ray more."""
+
+
+def grasps(state: State, batch: PlanBatch, domain: Domain) -> Verdicts:
+    """Picks of things that no step before has picked, by grasps that do not hold them where they stand alone.
+
+    Others may be in the way besides, so nothing is known of a grasp that passes. A grasp follows its thing,
+    so it does not matter if that has been pushed along, as long as it has not been tipped over.
+    """
+    foresight = Foresight(state, batch, domain)
+    for spec in domain.spec.skills.values():
+        if spec.target == FUNCTION:
+            alone = _Alone(state, batch, domain, spec.name)
+            # lift tests are dear: they are for plans of which no grasp fails otherwise
+            for reject in (_misfits, _slips):
+                _foresee(foresight, spec.name, alone, reject)
+    return foresight.verdicts
+
+
+Rejected: TypeAlias = tuple[Bools, FloatArray, list[str]]
+"""Which of some grasps fail, by what margins (m, negative where they do), and why."""
+Reject: TypeAlias = Callable[[LoneGrasps, FloatArray, str], Rejected]
+
+
+class _Alone:
+    """The objects of a scene by their number in the columns of a skill, each with its lone grasps."""
+
+    def __init__(self, state: State, batch: PlanBatch, domain: Domain, skill: str) -> None:
+        given = domain.spec.world.args.get("bodies")
+        self._bodies = bodies_of(given, domain.spec.folder if given else None)
+        self._objects: Mapping[str, Any] = state.objects  # type: ignore[attr-defined]
+        params = [s.params for s in batch.signatures if s.skill == skill]
+        self.names: tuple[str, ...] = params[0][0].choices if params else ()
+
+    def of(self, number: int) -> LoneGrasps:
+        """What is known of grasping an object."""
+        name = self.names[number]
+        thing = self._objects[name]
+        body = body_of(self._bodies, name, thing.category)
+        return lone_grasps(body, round(thing.pose.roll, 4), round(thing.pose.pitch, 4))
+
+
+def _foresee(foresight: Foresight, skill: str, alone: _Alone, reject: Reject) -> None:
+    """Put the first pick of every object in every plan to a test."""
+    picked = np.zeros((len(foresight.open), len(alone.names)), bool)
+    for step in foresight.steps:
+        rows, values = foresight.at(step, skill, 7)
+        which, wanted = values[:, 0].astype(int), values[:, 1:]
+        new = ~picked[rows, which]
+        picked[rows, which] = True
+        for number in np.unique(which[new]):
+            mine = new & (which == number)
+            bad, margins, whys = reject(alone.of(number), wanted[mine], foresight.called(alone.names[number]))
+            told = [{"why": why} for why, is_bad in zip(whys, bad, strict=True) if is_bad]
+            foresight.reject(step, skill, "grasp", rows[mine][bad], margins[bad], told.__getitem__)
+
+
+def _misfits(known: LoneGrasps, wanted: FloatArray, what: str) -> Rejected:
+    """Fingers that come down on the body, or get too little of it between them."""
+    depth, cover = known.fits(wanted).T
+    meets: Bools = depth > RECIPE.penetration + NEAR
+    poor: Bools = ~meets & (cover < RECIPE.min_cover - SPARE)
+    margins = np.where(meets, -depth, np.minimum((cover - RECIPE.min_cover) * PAD_WIDTH, -UNMEASURED))
+    words = (
+        f"the fingers come down on {what} instead of around it",
+        f"the fingers get too little of {what} between them",
+        f"the fingers miss {what}",
+    )
+    whys = [words[0 if m else 1 if share else 2] for m, share in zip(meets, cover, strict=True)]
+    return meets | poor, margins, whys
+
+
+def _slips(known: LoneGrasps, wanted: FloatArray, what: str) -> Rejected:
+    """Grasps that do not hold the body."""
+    lost: Bools = known.holds(wanted) < 1
+    return lost, np.full(len(lost), -UNMEASURED), [f"{what} slips out of the fingers"] * len(lost)
