@@ -50,6 +50,8 @@ class Verdicts:
     def _table(self) -> Iterator[sqlite3.Connection]:
         try:
             connection = _opened(self._path)
+        except sqlite3.OperationalError:  # no folder, no room, or another process writes for ever
+            raise
         except sqlite3.DatabaseError:
             self._path.unlink(missing_ok=True)
             connection = _opened(self._path)
@@ -66,6 +68,8 @@ def _opened(path: Path) -> sqlite3.Connection:
             "CREATE TABLE IF NOT EXISTS grasps (key TEXT, x REAL, y REAL, z REAL, roll REAL, pitch REAL, "
             "yaw REAL, depth REAL, cover REAL, holds INTEGER, PRIMARY KEY (key, x, y, z, roll, pitch, yaw))"
         )
+        if connection.execute("PRAGMA quick_check(1)").fetchone() != ("ok",):
+            raise sqlite3.DatabaseError(f"{path} is damaged")
     except BaseException:
         connection.close()
         raise

@@ -247,6 +247,8 @@ class DomainSpec(Spec):
     """The part before the slash in `domain/task`."""
     summary: str
     """One sentence: what this world is."""
+    credits: tuple[str, ...] = ()
+    """Whose data the domain uses, and under which licence; `proc3s show` repeats it."""
     world: Target
     """The transition model that accepts or refuses plans."""
     execution: Target | None = None

@@ -136,6 +136,8 @@ def _describe_domain(domain: Domain) -> Iterator[str]:
     for task in spec.tasks.values():
         yield from _describe_task(spec.name, task)
     yield f"  [bold]budget[/] {escape(_text(spec.budget))} samples"
+    for credit in spec.credits:
+        yield f"  [bold]credit[/] {escape(credit)}"
 
 
 def _param(name: str, spec: ParamSpec) -> str:
