@@ -35,13 +35,13 @@ class BodySpec(BaseModel):
     spinning_friction: Friction = 0.0
     """Coefficient of turning on the spot, m."""
 
-    def body(self, folder: Path | None) -> Body:
-        """The body; files are looked for in `folder`."""
+    def body(self) -> Body:
+        """The body."""
         common = {name: getattr(self, name) for name in BodySpec.model_fields if name != "shape"}
         own = {n: getattr(self, n) for n in type(self).model_fields if n not in BodySpec.model_fields}
-        return Body(self._shape(own, folder), **common)
+        return Body(self._shape(own), **common)
 
-    def _shape(self, own: dict[str, Any], folder: Path | None) -> Shape:
+    def _shape(self, own: dict[str, Any]) -> Shape:
         shape: Shape = self.made(**own)
         return shape
 
@@ -93,20 +93,20 @@ class BowlSpec(BodySpec):
 
 
 class MeshSpec(BodySpec):
-    """`{shape: mesh, path: meshes/cup.stl, mass: 0.2}`: any file that trimesh reads: STL, OBJ, PLY."""
+    """`{shape: mesh, path: ./meshes/cup.stl, mass: 0.2}`: any file that trimesh reads: STL, OBJ, PLY."""
 
     shape: Literal["mesh"]
     """Its kind."""
     path: str
-    """A file beside the `domain.yaml`."""
+    """A file; `./…` is beside the `domain.yaml`."""
     scale: Length = 1.0
     """Metres for a one in the file: 0.001 where it is in mm."""
     turn: tuple[Angle, Angle, Angle] = (0.0, 0.0, 0.0)
     """Roll, pitch, yaw, rad, that bring it roughly to how it stands."""
 
-    def body(self, folder: Path | None) -> Body:
+    def body(self) -> Body:
         """The body at rest. Raises ValueError for a file that is missing or no mesh."""
-        shape = prepare((folder or Path()) / self.path, self.scale, self.turn)
+        shape = prepare(Path(self.path), self.scale, self.turn)
         return Body(shape, self.mass, self.friction, self.rolling_friction, self.spinning_friction)
 
 
@@ -142,7 +142,7 @@ class YcbSpec(BaseModel):
             raise ValueError(f"nobody weighed {self.model}: give its mass in kg")
         return self
 
-    def body(self, folder: Path | None) -> Body:
+    def body(self) -> Body:
         """The body at rest."""
         given = self.model_dump(exclude={"shape", "model"}, exclude_none=True)
         known = ycb.table().get(self.model)
@@ -158,14 +158,14 @@ SHAPES: Mapping[str, type[BodySpec | YcbSpec]] = {
 }
 
 
-def bodies_of(given: Mapping[str, Any] | None, folder: Path | None = None) -> Mapping[str, Body]:
+def bodies_of(given: Mapping[str, Any] | None) -> Mapping[str, Body]:
     """The body of every category; block and bowl where none are given.
 
     Raises SpecError that names the category and the field.
     """
     if given is None:
         return CATEGORIES
-    return {category: _body(f"bodies.{category}", spec, folder) for category, spec in given.items()}
+    return {category: _body(f"bodies.{category}", spec) for category, spec in given.items()}
 
 
 def body_of(categories: Mapping[str, Body], name: str, category: str) -> Body:
@@ -176,13 +176,13 @@ def body_of(categories: Mapping[str, Body], name: str, category: str) -> Body:
     return categories[category]
 
 
-def _body(where: str, given: Any, folder: Path | None) -> Body:
+def _body(where: str, given: Any) -> Body:
     shape = given.get("shape") if isinstance(given, Mapping) else None
     if not isinstance(shape, str) or shape not in SHAPES:
         text = "is missing" if shape is None else f"there is no shape {shape!r}"
         raise SpecError([Issue(where, "shape", text + did_you_mean(str(shape), SHAPES))])
     spec = validate(SHAPES[shape], given, where)
     try:
-        return spec.body(folder)
+        return spec.body()
     except ValueError as error:
         raise SpecError([Issue(where, "path", str(error))]) from error

@@ -46,8 +46,7 @@ class _Alone:
     """The objects of a scene by their number in the columns of a skill, each with its lone grasps."""
 
     def __init__(self, state: State, batch: PlanBatch, domain: Domain, skill: str) -> None:
-        given = domain.spec.world.args.get("bodies")
-        self._bodies = bodies_of(given, domain.spec.folder if given else None)
+        self._bodies = bodies_of(domain.spec.world.args.get("bodies"))
         self._objects: Mapping[str, Any] = state.objects  # type: ignore[attr-defined]
         params = [s.params for s in batch.signatures if s.skill == skill]
         self.names: tuple[str, ...] = params[0][0].choices if params else ()

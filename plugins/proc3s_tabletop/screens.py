@@ -26,8 +26,7 @@ SKILLS: dict[str, Foresee] = {"pick": foresee_pick, "place": foresee_place}
 
 def geometry(state: State, batch: PlanBatch, domain: Domain) -> Verdicts:
     """Boxes seen from above: fingers that come down on things, picks of nothing, places without support."""
-    given = domain.spec.world.args.get("bodies")
-    bodies = bodies_of(given, domain.spec.folder if given else None)
+    bodies = bodies_of(domain.spec.world.args.get("bodies"))
     foresight = Foresight(state, batch, domain)
     lie = Layout(solids(state.objects, bodies), len(batch))  # type: ignore[attr-defined]
     if not lie.bodies.names:

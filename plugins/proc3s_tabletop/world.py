@@ -35,7 +35,7 @@ class TabletopWorld(World[Telemetry]):
     def __init__(self, domain: "Domain", bodies: Mapping[str, Any] | None = None, speed: float = 1.0) -> None:
         super().__init__(domain)
         self.speed = speed
-        self.categories = bodies_of(bodies, domain.spec.folder if bodies else None)
+        self.categories = bodies_of(bodies)
         self._bodies: dict[str, Body] = {}
         self._table: Table | None = None
         self._film: list[Snapshot] = []

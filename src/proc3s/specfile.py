@@ -102,7 +102,7 @@ def load_spec(path: Path, model: type[S]) -> S:
     spec, found = None, list(document.issues)
     if document.data is not None:
         try:
-            spec = model.model_validate(document.data)
+            spec = model.model_validate(_beside(document.data, path.parent.resolve()))
         except ValidationError as error:
             found += [(loc, document.line(loc), text) for loc, text in _explain(error, model)]
         if model is DomainSpec and isinstance(document.data, dict):
@@ -111,6 +111,15 @@ def load_spec(path: Path, model: type[S]) -> S:
         found.sort(key=lambda item: item[1])
         raise SpecError([Issue(f"{path}:{line}", ".".join(map(str, loc)), text) for loc, line, text in found])
     return spec
+
+
+def _beside(data: Any, folder: Path, in_args: bool = False) -> Any:
+    """Plain data in which `./…` within the `args` of a target is a path below the folder."""
+    if isinstance(data, dict):
+        return {key: _beside(value, folder, in_args or key == "args") for key, value in data.items()}
+    if isinstance(data, list):
+        return [_beside(value, folder, in_args) for value in data]
+    return str(folder / data) if in_args and isinstance(data, str) and data.startswith("./") else data
 
 
 def load_domain(path: Path | str) -> DomainSpec:

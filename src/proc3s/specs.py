@@ -40,7 +40,7 @@ class Target(Spec):
     target: ImportString
     """`package.module:name` of a class or function; the spec says what it is called with."""
     args: dict[str, Any] = Field(default_factory=dict)
-    """Further keyword arguments of the call."""
+    """Further keyword arguments of the call. In a file, `./name` is a path beside the file."""
 
     def load(self) -> Any:
         """The object that `target` names. Raises SpecError if it cannot be imported."""

@@ -80,3 +80,17 @@ def test_a_mistake_in_a_body_is_named(cans, cli, here):
     result = cli(*cans)
     assert result.code == 2
     assert "bodies.can: hight: unknown key 'hight'; did you mean 'height'" in result.json["error"]
+
+
+def test_a_mesh_of_ones_own_lies_beside_the_spec(cans, cli, here):
+    import trimesh
+
+    (here / "meshes").mkdir()
+    trimesh.creation.cylinder(radius=25, height=60).export(here / "meshes/can.stl")
+    box = "{shape: cylinder, radius: 0.025, height: 0.06, mass: 0.15}"
+    mesh = "{shape: mesh, path: ./meshes/can.stl, scale: 0.001, mass: 0.15}"
+    (here / "domain.yaml").write_text(DOMAIN.replace(box, mesh))
+    summary = cli(*cans).json
+    assert (summary["solved"], summary["goal_reached"]) == (True, True), summary
+    (here / "meshes/can.stl").unlink()
+    assert "there is no file" in cli(*cans[:-1], "again").json["error"]

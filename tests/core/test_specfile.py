@@ -180,3 +180,13 @@ def test_types_that_contain_each_other_are_a_mistake_of_the_file(tmp_path):
         "      name: {type: str}", "      name: {type: str}\n      on: {type: Bead}"
     )
     mistakes(tmp_path, text)
+
+
+def test_a_path_in_arguments_is_beside_the_file(tmp_path):
+    text = toy_world.write(tmp_path).read_text()
+    head, _, tail = text.partition("world: {")
+    (tmp_path / "domain.yaml").write_text(
+        f"{head}world: {{args: {{file: ./a/b.txt, word: a/b, n: [./c]}}, {tail}"
+    )
+    args = load_domain(tmp_path / "domain.yaml").world.args
+    assert args == {"file": str(tmp_path / "a/b.txt"), "word": "a/b", "n": [str(tmp_path / "c")]}
