@@ -1,8 +1,9 @@
 """The seven methods of the paper over the one loop, and the presets."""
 
 from collections.abc import Callable
+from pathlib import Path
 
-from proc3s import MethodSpec, PresetSpec, hookimpl
+from proc3s import MethodSpec, PresetSpec, SuiteSpec, hookimpl, load_suite
 
 _FEEDBACK_ROUNDS = 5  # PRoC3S, section 5: up to five rounds of feedback
 
@@ -93,7 +94,9 @@ PRESETS = (
 
 
 @hookimpl
-def register_methods(register: Callable[[MethodSpec | PresetSpec], None]) -> None:
-    """Seven methods and three presets."""
+def register_methods(register: Callable[[MethodSpec | PresetSpec | SuiteSpec], None]) -> None:
+    """Seven methods, three presets, and the suites of `bench/*.yaml`."""
     for spec in (*METHODS, *PRESETS):
         register(spec)
+    for path in sorted((Path(__file__).parent / "bench").glob("*.yaml")):
+        register(load_suite(path))

@@ -133,6 +133,7 @@ def _replayed(recording: Recording, request: Request, *notes: str) -> Completion
     changes: dict[str, object] = {
         "candidates": completion.candidates[first : first + request.sampling.n],
         "source": "recorded" if completion.source == "live" else completion.source,
+        "answered": completion.answered or recording.time,
         "notes": (*completion.notes, *(f"the answer in {recording.where} {note}" for note in notes)),
     }
     if first:

@@ -56,6 +56,8 @@ if TYPE_CHECKING:
     from proc3s.state import PlanBatch as PlanBatch
     from proc3s.state import Pose as Pose
     from proc3s.state import State as State
+    from proc3s.suites.spec import SuiteSpec as SuiteSpec
+    from proc3s.suites.spec import load_suite as load_suite
     from proc3s.world import Score as Score
     from proc3s.world import Transition as Transition
     from proc3s.world import World as World
@@ -98,6 +100,7 @@ _WHERE = {
         "SolverSpec",
         "TemplatesSpec",
     ),
+    "suites.spec": ("SuiteSpec", "load_suite"),
     "state": ("Action", "FloatArray", "Plan", "PlanBatch", "Pose", "State"),
     "world": ("Score", "Transition", "World"),
 }

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from proc3s import specs
     from proc3s.events import Event
     from proc3s.problem import Problem
+    from proc3s.suites.spec import SuiteSpec
 
 hookspec = pluggy.HookspecMarker("proc3s")
 hookimpl = pluggy.HookimplMarker("proc3s")
@@ -40,8 +41,8 @@ def register_constraints(register: "Callable[[specs.ConstraintSpec], None]") -> 
 
 
 @hookspec
-def register_methods(register: "Callable[[specs.MethodSpec | specs.PresetSpec], None]") -> None:
-    """Bring methods, and presets that fill what methods leave open."""
+def register_methods(register: "Callable[[specs.MethodSpec | specs.PresetSpec | SuiteSpec], None]") -> None:
+    """Bring methods, presets that fill what methods leave open, and suites that compare them."""
 
 
 @hookspec

@@ -93,6 +93,8 @@ class Completion(_Data):
     """US dollars."""
     latency: float | None = None
     """Seconds that the provider took when it was asked; a replay keeps the figure of then."""
+    answered: str | None = None
+    """When a recorded answer was given, ISO 8601."""
     attempts: int = 1
     """Calls it took, those that failed included."""
     dropped: tuple[str, ...] = ()

@@ -9,6 +9,7 @@ from proc3s.domain import Domain
 from proc3s.errors import Issue, SpecError, UsageError, did_you_mean
 from proc3s.plugins import PluginManager
 from proc3s.specs import DomainSpec, Spec, TaskSpec
+from proc3s.suites.spec import SuiteSpec
 
 S = TypeVar("S", bound=Spec)
 
@@ -25,8 +26,11 @@ KINDS: Mapping[str, type[Spec]] = {
         specs.LLMSpec,
         specs.ExecutorSpec,
         specs.TemplatesSpec,
+        SuiteSpec,
     )
 }
+_TOGETHER: Mapping[type[Spec], str] = {specs.PresetSpec: "methods", SuiteSpec: "methods"}
+"""Kinds that the hook of another kind brings."""
 
 
 class Registry:
@@ -38,8 +42,7 @@ class Registry:
     def all(self, cls: type[S]) -> dict[str, S]:
         """Every spec of a kind by name. Raises SpecError when two plugins bring the same name."""
         found: dict[str, tuple[str, Spec]] = {}
-        hook = "methods" if cls is specs.PresetSpec else cls.kind
-        for plugin, spec in self.plugins.specs(hook):
+        for plugin, spec in self.plugins.specs(_TOGETHER.get(cls, cls.kind)):
             if not isinstance(spec, cls):
                 continue
             name = str(getattr(spec, "name"))  # noqa: B009 - every registered kind has a name

@@ -7,7 +7,20 @@ from typing import Any
 
 import typer
 
-from proc3s.cli import bench, catalogue, doctor, explain, plugins, render_prompt, replay, report, run, schema
+from proc3s.cli import (
+    bench,
+    catalogue,
+    compare,
+    doctor,
+    explain,
+    judge,
+    plugins,
+    render_prompt,
+    replay,
+    report,
+    run,
+    schema,
+)
 from proc3s.errors import Proc3sError
 
 app = typer.Typer(
@@ -44,6 +57,8 @@ _COMMANDS: dict[str, Callable[..., Any]] = {
     "explain": explain.explain,
     "report": report.report,
     "bench": bench.bench,
+    "compare": compare.compare,
+    "judge": judge.judge,
     "list": catalogue.list_,
     "show": catalogue.show,
     "plugins": plugins.plugins,

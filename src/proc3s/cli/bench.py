@@ -15,16 +15,41 @@ def bench(
         str,
         typer.Argument(
             metavar="SUITE",
-            help="`ccsp`: search fixed programs; `execution`: carry out what is found. No LLM",
+            help="a suite of runs: see `proc3s list suites`, or a YAML file; or without an LLM `ccsp`: search "
+            "fixed programs, `execution`: carry out what is found",
         ),
     ],
     tasks: Annotated[
-        Many, typer.Option("--tasks", help="domain, domain/task or domain/task.program, with commas  [all]")
+        Many,
+        typer.Option(
+            "--tasks", help="domain, domain/task or (ccsp, execution) domain/task.program, with commas  [all]"
+        ),
+    ] = None,
+    methods: Annotated[
+        Many, typer.Option("--methods", help="suites: with commas  [those of the suite]")
+    ] = None,
+    preset: Annotated[
+        Many, typer.Option("--preset", help="suites: with commas  [those of the suite]")
     ] = None,
     solvers: Annotated[
         Many, typer.Option("--solvers", help="with commas; see `proc3s list solvers`  [all]")
     ] = None,
-    seeds: Annotated[int, typer.Option("--seeds", min=1, help="scenes of every task: seeds 0 to N-1")] = 5,
+    seeds: Annotated[
+        int | None,
+        typer.Option("--seeds", min=1, help="scenes of every task: seeds 0 to N-1  [the suite's, or 5]"),
+    ] = None,
+    llm: a.Llm = None,
+    llm_options: a.LlmOptions = None,
+    llm_jobs: a.LlmJobs = None,
+    record: a.Record = None,
+    max_cost: Annotated[
+        float | None, typer.Option("--max-cost", help="US dollars that all live answers may cost")
+    ] = None,
+    check_goal: a.CheckGoal = None,
+    resume: Annotated[
+        Path | None,
+        typer.Option("--resume", metavar="DIR", help="go on with a suite that was broken off"),
+    ] = None,
     executor: a.ExecutorName = None,
     jobs: a.Jobs = None,
     samples: Annotated[
@@ -43,17 +68,41 @@ def bench(
     plugin: a.Plugins = None,
     json: a.Json = False,
 ) -> None:
-    """Measure how fast programs are searched, every solver against the plain path, paired by seed; or how
-    often the plans that are found lead to the goal when they are carried out with small errors."""
+    """Run a suite of tasks by methods and seeds, and make its tables. Or measure how fast programs are
+    searched, every solver against the plain path, paired by seed; or how often the plans that are found lead
+    to the goal when they are carried out with small errors."""
     from proc3s.cli.benching import SUITES, Wanted, run_bench
     from proc3s.cli.field_testing import run_field_test
-    from proc3s.errors import UsageError, did_you_mean
+    from proc3s.cli.suite_running import SuiteWanted, run_suite
 
+    if suite not in SUITES:
+        run_suite(
+            SuiteWanted(
+                suite=suite,
+                tasks=_split(tasks),
+                methods=_split(methods),
+                presets=_split(preset),
+                seeds=seeds,
+                samples=samples,
+                llm=llm,
+                llm_options=tuple(llm_options or ()),
+                llm_jobs=llm_jobs,
+                jobs=jobs or 1,
+                max_cost=max_cost,
+                check_goal=check_goal,
+                record=record,
+                plugins=tuple(plugin or ()),
+                out=out,
+                resume=resume,
+            ),
+            json,
+        )
+        return
     wanted = Wanted(
         suite=suite,
         tasks=_split(tasks),
         solvers=_split(solvers),
-        seeds=seeds,
+        seeds=seeds or 5,
         executor=executor or ("processes" if (jobs or 1) > 1 else "serial"),
         jobs=jobs or 1,
         samples=samples,
@@ -62,8 +111,6 @@ def bench(
         times=times,
         plugins=tuple(plugin or ()),
     )
-    if suite not in SUITES:
-        raise UsageError(f"there is no benchmark {suite!r}{did_you_mean(suite, SUITES)}")
     {"ccsp": run_bench, "execution": run_field_test}[suite](wanted, out, json)
 
 

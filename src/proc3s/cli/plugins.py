@@ -24,7 +24,7 @@ def plugins(
 
     registry = open_registry(plugin or [])
     for kind in KINDS:
-        if kind != "presets":
+        if kind not in ("presets", "suites"):
             registry.plugins.specs(kind)
     statuses = list(registry.plugins.statuses.values())
     if json:

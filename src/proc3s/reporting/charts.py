@@ -15,7 +15,7 @@ from matplotlib.ticker import MaxNLocator
 from proc3s.reporting.story import Program
 from proc3s.reporting.trials import Samples, StepReport
 
-_STYLE: dict[Any, Any] = {
+STYLE: dict[Any, Any] = {
     "font.size": 9.0,
     "axes.spines.top": False,
     "axes.spines.right": False,
@@ -27,8 +27,10 @@ _STYLE: dict[Any, Any] = {
     "svg.hashsalt": "proc3s",
     "svg.fonttype": "path",
 }
+"""How all charts look, for `matplotlib.rc_context`."""
 _COLORS = ("#d55e00", "#0072b2", "#cc79a7", "#e69f00", "#56b4e9", "#7a5cc4", "#8c564b", "#666666")
-_ACCEPTED = "#009e73"
+ACCEPTED = "#009e73"
+"""Colour of what the world accepted."""
 _WIDEST = 4
 _MOST = 24
 """Parameters that are drawn; a program may have any number."""
@@ -49,7 +51,7 @@ def by_parameter(program: Program, colors: Mapping[str, str]) -> str | None:
     columns = _columns(program)[:_MOST]
     if not columns or not program.samples.u:
         return None
-    with mpl.rc_context(_STYLE):
+    with mpl.rc_context(STYLE):
         wide = min(_WIDEST, len(columns))
         rows = math.ceil(len(columns) / wide)
         figure = Figure(figsize=(2.5 * wide, 2.1 * rows), layout="constrained")
@@ -60,7 +62,7 @@ def by_parameter(program: Program, colors: Mapping[str, str]) -> str | None:
             axes.set_visible(False)
         for row in grid:
             row[0].set_ylabel("steps carried out")
-        return _svg(figure)
+        return svg(figure)
 
 
 def _columns(program: Program) -> list[tuple[str, int, float, float]]:
@@ -100,7 +102,7 @@ def _draw(
     for kind, color in colors.items():
         here = (kinds == kind) & ~accepted
         axes.scatter(x[here], y[here], s=6, color=color, alpha=0.55, linewidths=0, rasterized=True)
-    axes.scatter(x[accepted], y[accepted], s=90, marker="*", color=_ACCEPTED, zorder=3)
+    axes.scatter(x[accepted], y[accepted], s=90, marker="*", color=ACCEPTED, zorder=3)
     axes.set_xlabel(name[:40])
     margin = 0.03 * (high - low) or 0.5  # a sampler may allow one value only
     axes.set_xlim(low - margin, high + margin)
@@ -114,7 +116,7 @@ def by_step(steps: Sequence[StepReport], colors: Mapping[str, str]) -> str | Non
     if not at_steps:
         return None
     numbers = sorted({report.step for report in at_steps if report.step is not None})
-    with mpl.rc_context(_STYLE):
+    with mpl.rc_context(STYLE):
         figure = Figure(figsize=(6.2, 0.7 + 0.32 * len(numbers)), layout="constrained")
         axes = figure.subplots()
         ends = dict.fromkeys(numbers, 0.0)
@@ -126,7 +128,7 @@ def by_step(steps: Sequence[StepReport], colors: Mapping[str, str]) -> str | Non
         axes.set_yticks(range(len(numbers)), [_step_name(number, at_steps) for number in numbers])
         axes.invert_yaxis()
         axes.set_xlabel("% of the samples")
-        return _svg(figure)
+        return svg(figure)
 
 
 def _step_name(step: int, reports: Sequence[StepReport]) -> str:
@@ -134,7 +136,8 @@ def _step_name(step: int, reports: Sequence[StepReport]) -> str:
     return f"{step}  {skill[:40]}".rstrip()
 
 
-def _svg(figure: Figure) -> str:
+def svg(figure: Figure) -> str:
+    """A figure as an SVG text, the same for the same figure."""
     stream = io.StringIO()
     figure.savefig(stream, format="svg", transparent=True, dpi=150, metadata={"Date": None})
     return stream.getvalue()

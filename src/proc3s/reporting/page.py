@@ -39,7 +39,7 @@ def page(story: Story, folders: Sequence[Path]) -> str:
         css=Markup(css),  # a file of the templates; what follows is what the policy allows
         css_hash=base64.b64encode(hashlib.sha256(css.encode()).digest()).decode(),
         told=_shown(explained(story, folders)),
-        colors={name: _picture_of(_swatch(color), "svg+xml") for name, color in colors.items()},
+        colors={name: data_url(_swatch(color), "svg+xml") for name, color in colors.items()},
         details={round_.number: _details(round_, colors) for round_ in story.rounds},
         pictures=_pictures(story),
         timings=_timings(story),
@@ -93,8 +93,8 @@ def _of_program(program: Program, colors: dict[str, str]) -> dict[str, Any]:
         else colored(program.source, "python", _faulty_lines(program.diagnosis)),
         "diff": colored(program.change.diff, "diff") if program.change else None,
         "printed": clean(program.printed, _LONGEST),
-        "by_parameter": _picture_of(samplers.encode(), "svg+xml") if samplers else None,
-        "by_step": _picture_of(steps.encode(), "svg+xml") if steps else None,
+        "by_parameter": data_url(samplers.encode(), "svg+xml") if samplers else None,
+        "by_step": data_url(steps.encode(), "svg+xml") if steps else None,
     }
 
 
@@ -126,10 +126,11 @@ def _pictures(story: Story) -> list[dict[str, Any]]:
 
 def _picture(path: Path, action: dict[str, Any] | None, after: int | None) -> dict[str, Any]:
     """A picture, the action that it shows the outcome of, and how many actions came before it."""
-    return {"name": path.name, "src": _picture_of(path.read_bytes(), "png"), "action": action, "after": after}
+    return {"name": path.name, "src": data_url(path.read_bytes(), "png"), "action": action, "after": after}
 
 
-def _picture_of(data: bytes, kind: str) -> str:
+def data_url(data: bytes, kind: str) -> str:
+    """A picture of a kind, e.g. png, as the address of an image."""
     return f"data:image/{kind};base64,{base64.b64encode(data).decode()}"
 
 

@@ -1,0 +1,71 @@
+"""The results of a suite as one HTML page that needs nothing from outside and runs nothing."""
+
+import base64
+import hashlib
+import io
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+from markupsafe import Markup
+from PIL import Image, UnidentifiedImageError
+
+from proc3s.reporting.page import data_url
+from proc3s.reporting.words import Words
+from proc3s.suites.charts import curves, success_bars
+from proc3s.suites.results import Result, Results
+from proc3s.suites.tables import Table, provenance
+
+THUMBNAIL = (260, 260)
+"""Largest width and height of a picture in the gallery, pixels."""
+
+
+def page(results: Results, tables: Sequence[Table], folder: Path, templates: Sequence[Path]) -> str:
+    """The page. Raises UsageError or SpecError for a template that is missing or does not render."""
+    words = Words(templates, html=True)
+    css = words.render("report.css") + words.render("suite.css")
+    charts = {"Success": success_bars(results), "Samples to a solution": curves(results)}
+    return words.render(
+        "suite.j2",
+        css=Markup(css),
+        css_hash=base64.b64encode(hashlib.sha256(css.encode()).digest()).decode(),
+        spec=results.spec,
+        facts=results.facts,
+        origin=provenance(results),
+        tables=tables,
+        charts={title: data_url(svg.encode(), "svg+xml") for title, svg in charts.items() if svg},
+        gallery=list(_gallery(results, folder)),
+    )
+
+
+def _gallery(results: Results, folder: Path) -> Iterator[dict[str, Any]]:
+    """Every episode in words, with the picture of what came of it."""
+    for result in results.all:
+        yield {
+            "episode": result.episode,
+            "verdict": result.verdict,
+            "state": _state(result),
+            "picture": thumbnail(folder / result.episode.run_dir / "plan.png"),
+        }
+
+
+def _state(result: Result) -> tuple[str, str]:
+    """A word and the class of its badge."""
+    if result.wrong:
+        return "solved but wrong", "warn"
+    if result.success is None:
+        return ("solved", "good") if result.episode.solved else ("unsolved", "bad")
+    return ("reached", "good") if result.success else ("not reached", "bad")
+
+
+def thumbnail(path: Path) -> str | None:
+    """A picture as a small data URL; None where there is none."""
+    try:
+        with Image.open(path) as image:
+            small = image.convert("RGB")
+    except (FileNotFoundError, UnidentifiedImageError):
+        return None
+    small.thumbnail(THUMBNAIL)
+    stream = io.BytesIO()
+    small.save(stream, "JPEG", quality=72)
+    return data_url(stream.getvalue(), "jpeg")

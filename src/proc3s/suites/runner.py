@@ -1,0 +1,208 @@
+"""Carries out the episodes of a suite: each is a `proc3s run` of its own, several at a time.
+
+A process of its own, so that whatever happens to one episode happens to it alone, and that those of several
+simulators share no thread. What is finished is in the store before the next begins.
+"""
+
+import contextlib
+import shutil
+import signal
+import subprocess
+import sys
+import threading
+from collections.abc import Iterable, Iterator, Mapping
+from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from proc3s.runs import LOG, events_of
+from proc3s.suites.episode import Episode, episode_of
+from proc3s.suites.spec import Cell, SuiteSpec
+from proc3s.suites.store import Store
+from proc3s.summary import Summary
+
+RUNS = "runs"
+"""Folder of the run folders, below that of the suite."""
+GRACE = 10.0
+"""Seconds in which an episode may write what it has after Ctrl-C."""
+
+_EXIT_ERROR = "the run ended with code {code} and no summary: {text}"
+
+
+@dataclass(frozen=True)
+class Order:
+    """What holds for all episodes: arguments of `proc3s run`, how many at a time, and what they may cost."""
+
+    spec: SuiteSpec
+    llm: str
+    llm_options: tuple[str, ...] = ()
+    """`key=value`."""
+    arguments: tuple[str, ...] = ()
+    llm_jobs: int | None = None
+    """Calls in flight of one episode."""
+    jobs: int = 1
+    max_cost: float | None = None
+    """US dollars, of all episodes together."""
+    judged: Mapping[str, bool] = field(default_factory=dict)
+    """Tasks that have a judge."""
+
+
+@dataclass(frozen=True)
+class Unfinished:
+    """An episode that is to be tried again: the provider failed, an answer is pending, the money is spent."""
+
+    cell: Cell
+    stopped: str
+    error: str
+
+
+Outcome = Episode | Unfinished
+
+
+class Runner:
+    """Runs the episodes that the store does not have yet. Close it to stop those under way."""
+
+    def __init__(self, order: Order, store: Store) -> None:
+        self._order, self._store = order, store
+        self._running: dict[Cell, subprocess.Popen[str]] = {}
+        self._lock, self._stopped = threading.Lock(), False
+        self._allotted: dict[Cell, float] = {}
+        self._spent = {run.name: spent_on(run) for run in (store.folder / RUNS).glob("*")}
+
+    def outcomes(self, cells: Iterable[Cell]) -> Iterator[Outcome]:
+        """What became of each episode, as they end; a finished one is in the store by then.
+
+        No more are begun once `max_cost` is spent.
+        """
+        waiting, pool = iter(cells), ThreadPoolExecutor(self._order.jobs)
+        under_way: set[Future[Outcome]] = set()
+        try:
+            while True:
+                while len(under_way) < self._order.jobs and not self._poor():
+                    if (cell := next(waiting, None)) is None:
+                        break
+                    self._allot(cell)
+                    under_way.add(pool.submit(self._run, cell))
+                if not under_way:
+                    return
+                done, under_way = wait(under_way, return_when=FIRST_COMPLETED)
+                for future in done:
+                    yield self._settle(future.result())
+        finally:
+            self.close()
+            pool.shutdown()
+
+    def _poor(self) -> bool:
+        return self._left() is not None and self._left() == 0.0
+
+    def _left(self) -> float | None:
+        """What may still be allotted; None without a limit."""
+        if self._order.max_cost is None:
+            return None
+        return max(0.0, self._order.max_cost - self.spent - sum(self._allotted.values()))
+
+    @property
+    def spent(self) -> float:
+        """US dollars, estimates where nobody knows better."""
+        return sum(self._spent.values())
+
+    def _allot(self, cell: Cell) -> None:
+        """A fair share of what is left, so that all together never cost more."""
+        if (left := self._left()) is not None:
+            self._allotted[cell] = left / (self._order.jobs - len(self._allotted))
+
+    def _settle(self, outcome: Outcome) -> Outcome:
+        self._allotted.pop(outcome.cell, None)
+        self._spent[outcome.cell.folder] = spent_on(self._store.folder / RUNS / outcome.cell.folder)
+        if isinstance(outcome, Episode):
+            self._store.add(outcome)
+        return outcome
+
+    def _run(self, cell: Cell) -> Outcome:
+        """One episode in a process of its own, begun anew or gone on with."""
+        run = self._store.folder / RUNS / cell.folder
+        going_on = _begun(run)
+        if not going_on and run.exists():
+            shutil.rmtree(run)  # a run that was killed before it asked anything
+        command = [sys.executable, "-m", "proc3s.suites.child", "run", *self._command(cell, run, going_on)]
+        with self._lock:
+            if self._stopped:
+                return Unfinished(cell, "interrupted", "interrupted before it began")
+            # the process is this program once more, and asks the provider: it keeps the environment
+            process = self._running[cell] = subprocess.Popen(
+                command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
+            )
+        output, complaints = process.communicate()
+        with self._lock:
+            del self._running[cell]
+        return self._outcome(cell, run, output, complaints, process.returncode)
+
+    def _command(self, cell: Cell, run: Path, going_on: bool) -> Iterator[str]:
+        spec = self._order.spec
+        if going_on:
+            yield from ("--resume", str(run))
+        else:
+            yield from (cell.task, "--method", cell.method, "--preset", cell.preset, "--seed", str(cell.seed))
+            yield from ("--out", str(run))
+            for name, value in (("--samples", spec.samples), ("--feedback", spec.feedback)):
+                yield from (name, str(value)) if value is not None else ()
+            yield from self._order.arguments
+        yield from ("--llm", _apart(self._order.llm, spec, cell))
+        for option in self._order.llm_options:
+            yield from ("-L", option)
+        if self._order.llm_jobs is not None:
+            yield from ("--llm-jobs", str(self._order.llm_jobs))
+        if cell in self._allotted:
+            yield from ("--max-cost", repr(self._allotted[cell] + spent_on(run)))
+        yield "--json"
+
+    def _outcome(self, cell: Cell, run: Path, output: str, complaints: str, code: int) -> Outcome:
+        try:
+            summary = Summary.model_validate_json(output)
+        except ValueError:
+            lines = complaints.strip().splitlines() or ["it said nothing"]
+            stopped = "interrupted" if self._stopped else "crashed"
+            return Unfinished(cell, stopped, _EXIT_ERROR.format(code=code, text=lines[-1]))
+        if summary.stopped is not None:
+            return Unfinished(cell, summary.stopped, summary.error or "")
+        run_dir = f"{RUNS}/{cell.folder}"
+        return episode_of(cell, summary, run, run_dir, self._order.judged.get(cell.task, False))
+
+    def close(self) -> None:
+        """Stop what is under way: as by Ctrl-C first, so that it keeps what it has."""
+        with self._lock:
+            self._stopped = True
+            processes = list(self._running.values())
+        for process in processes:
+            with contextlib.suppress(ProcessLookupError):
+                process.send_signal(signal.SIGINT)
+        for process in processes:
+            try:
+                process.wait(GRACE)
+            except subprocess.TimeoutExpired:
+                process.kill()
+
+
+def _begun(run: Path) -> bool:
+    """Whether a run folder has a beginning that can be gone on with."""
+    return (run / LOG).is_file() and bool(events_of(run, "run_started"))
+
+
+def spent_on(run: Path) -> float:
+    """US dollars that the calls of a run have cost up to now; its own limit counts them, too."""
+    charged = events_of(run, "charged") if (run / LOG).is_file() else []
+    return float(charged[-1]["ledger"]["cost"]) if charged else 0.0
+
+
+def _apart(llm: str, spec: SuiteSpec, cell: Cell) -> str:
+    """The LLM for a cell: prompts of several presets go to folders of their own, since names do not tell
+    them apart."""
+    if llm.startswith("manual:") and len(spec.presets) > 1:
+        return f"{llm.rstrip('/')}/{cell.preset}"
+    return llm
+
+
+def remaining(spec: SuiteSpec, store: Store) -> list[Cell]:
+    """The episodes that are not finished."""
+    finished = {episode.cell for episode in store.episodes()}
+    return [cell for cell in spec.cells() if cell not in finished]

@@ -1,0 +1,179 @@
+"""The tables of a suite as texts: what a person compares with the paper, and what the paper leaves out."""
+
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from proc3s.suites.results import Figures, Result, Results
+from proc3s.suites.statistics import ALPHA, mean_std, wilson, worse
+
+Line: TypeAlias = tuple[str, str]
+Read: TypeAlias = Callable[[Result], float | None]
+
+
+@dataclass(frozen=True)
+class Table:
+    """A title, the heads of the columns, the lines, and what to know about them."""
+
+    title: str
+    head: tuple[str, ...]
+    lines: tuple[tuple[str, ...], ...]
+    note: str = ""
+
+
+MEANS: tuple[tuple[str, str, str, Read], ...] = (
+    ("ccsp_samples", "Samples", "{:.0f}", lambda r: r.episode.samples),
+    ("ccsp_seconds", "Search, s", "{:.2f}", lambda r: r.episode.seconds.get("solve")),
+    ("total_seconds", "Total, s", "{:.2f}", lambda r: r.episode.seconds.get("total")),
+    ("feedback_rounds", "Feedback rounds", "{:.1f}", lambda r: r.episode.rounds),
+    ("llm_seconds", "LLM, s", "{:.2f}", lambda r: r.episode.llm_seconds),
+)
+"""Quantity in the published figures, title, format, and where it stands in a result."""
+
+
+def tables(results: Results, figures: Figures) -> Iterator[Table]:
+    """All tables, that of success first."""
+    yield success_table(results, figures)
+    for quantity, title, form, read in MEANS:
+        yield _means(results, figures, quantity, title, form, read)
+    yield _left_out(results)
+    yield _violations(results)
+
+
+def success_table(results: Results, figures: Figures) -> Table:
+    """Success rates with Wilson intervals; none is made of authored answers."""
+    lines = []
+    for line in results.lines:
+        cells = [_success(results, line, task) for task in results.spec.tasks]
+        lines.append((results.label(line), *cells))
+        lines += _published(results, figures, "success_percent", line, "{:.0f}")
+    note = (
+        "Percent of episodes in which the instruction was fulfilled, with Wilson's 95 % interval. Bold: not "
+        f"significantly worse than the best of its column (one-tailed z-test at {ALPHA}, as in the paper). "
+        "From answers written by hand no rate is computed. Where a person has judged, the person counts."
+    )
+    return Table("Success, %", ("method", *results.spec.tasks), tuple(lines), note)
+
+
+def _success(results: Results, line: Line, task: str) -> str:
+    """One rate, bold where it is among the best of its task."""
+    counted = rate_of(results.of(line, task))
+    if isinstance(counted, str):
+        return counted
+    good, of = counted
+    share = wilson(good, of)
+    text = f"{100 * share.value:.0f} [{100 * share.low:.0f}, {100 * share.high:.0f}]"
+    rivals = (rate_of(results.of(other, task)) for other in results.lines)
+    rates = [rate for rate in rivals if not isinstance(rate, str)]
+    best = max(rates, key=lambda rate: rate[0] / rate[1])
+    return f"**{text}**" if worse(good, of, *best) > ALPHA else text
+
+
+def rate_of(results: Sequence[Result]) -> tuple[int, int] | str:
+    """Successes and how many there are; or in a few words why there is no rate."""
+    judged = [r for r in results if r.success is not None]
+    if not results:
+        return ""
+    if any(r.authored for r in results):
+        return f"{sum(bool(r.success) for r in judged)}/{len(results)} by hand"
+    return (sum(bool(r.success) for r in judged), len(judged)) if judged else "not judged"
+
+
+def _published(
+    results: Results, figures: Figures, quantity: str, line: Line, form: str
+) -> list[tuple[str, ...]]:
+    """The published figures of a method, if there are any."""
+    found = [figures.get((quantity, line[0], task)) for task in results.spec.tasks]
+    if not any(found):
+        return []
+    return [("· published", *(_mean(form, *figure) if figure else "" for figure in found))]
+
+
+def _mean(form: str, mean: float, std: float | None) -> str:
+    return form.format(mean) + (f" ± {form.format(std)}" if std is not None else "")
+
+
+def _means(results: Results, figures: Figures, quantity: str, title: str, form: str, read: Read) -> Table:
+    """Mean and standard deviation of a figure that every episode has."""
+    lines: list[tuple[str, ...]] = []
+    for line in results.lines:
+        values = [_values(results.of(line, task), read) for task in results.spec.tasks]
+        cells = [_mean(form, *mean_std(some)) if some else "" for some in values]
+        lines.append((results.label(line), *cells))
+        lines += _published(results, figures, quantity, line, form)
+    note = "Mean ± standard deviation (of the sample) over seeds, successful or not."
+    return Table(title, ("method", *results.spec.tasks), tuple(lines), note)
+
+
+def _values(results: Sequence[Result], read: Read) -> list[float]:
+    return [value for value in map(read, results) if value is not None]
+
+
+def _left_out(results: Results) -> Table:
+    """What the paper's tables do not say."""
+    lines = []
+    for line in results.lines:
+        some = results.of(line)
+        lines.append(
+            (
+                results.label(line),
+                str(len(some)),
+                str(sum(r.episode.solved for r in some)),
+                str(sum(r.wrong for r in some)),
+                str(sum(r.verdict is not None for r in some)),
+                _mean_of(some, "{:,.0f}", lambda r: r.episode.prompt_tokens),
+                _mean_of(some, "{:,.0f}", lambda r: r.episode.completion_tokens),
+                _cost(some),
+            )
+        )
+    head = ("method", "episodes", "solved", "solved but wrong", "judged by a person")
+    note = "Solved: the world accepted a plan. Tokens and cost are of all calls of an episode; cost is a sum."
+    return Table("Beside that", (*head, "tokens asked", "tokens answered", "cost, $"), tuple(lines), note)
+
+
+def _mean_of(results: Sequence[Result], form: str, read: Read) -> str:
+    values = _values(results, read)
+    return form.format(mean_std(values)[0]) if values else "unknown"
+
+
+def _cost(results: Sequence[Result]) -> str:
+    costs = [r.episode.cost for r in results]
+    known = sum(cost for cost in costs if cost is not None)
+    return f"{known:.4f}" + (" and unknown ones" if None in costs else "") if results else ""
+
+
+def _violations(results: Results) -> Table:
+    """How many samples failed first by what."""
+    counts = {line: Counter[str]() for line in results.lines}
+    for line in results.lines:
+        for result in results.of(line):
+            counts[line].update(result.episode.violations)
+    kinds = [kind for kind, _ in sum(counts.values(), Counter[str]()).most_common()]
+    lines = tuple((results.label(line), *(str(counts[line][kind]) for kind in kinds)) for line in counts)
+    return Table("First violations of samples", ("method", *kinds), lines)
+
+
+def provenance(results: Results) -> list[str]:
+    """Where the answers are from, and what was not as asked: a sentence each."""
+    kinds: dict[tuple[str, str], list[Result]] = {}
+    for result in results.all:
+        kinds.setdefault((result.episode.source, result.episode.model or "no model"), []).append(result)
+    told = [_origin(source, model, some) for (source, model), some in kinds.items()]
+    lost = Counter(name for r in results.all for name in r.episode.dropped)
+    told += [
+        f"In {count} episodes the provider did not take the parameter `{name}`: they cannot be repeated."
+        for name, count in lost.items()
+    ]
+    failed = sum(r.episode.error is not None for r in results.all)
+    return told + [f"{failed} episodes ended with an error, and count as failures."] * (failed > 0)
+
+
+def _origin(source: str, model: str, some: Sequence[Result]) -> str:
+    if source == "authored":
+        return f"{len(some)} episodes use answers that were written by hand: no success rate is made of them."
+    dates = sorted({r.episode.answered[:10] for r in some if r.episode.answered})
+    when = f", answered {dates[0]}" + (f" to {dates[-1]}" if len(dates) > 1 else "") if dates else ""
+    hashes = sorted({r.episode.prompt_sha256[:12] for r in some if r.episode.prompt_sha256})
+    shown = ", ".join(hashes[:3]) + (f" and {len(hashes) - 3} more" if len(hashes) > 3 else "")
+    return f"{len(some)} episodes: {source} answers of {model}{when}; SHA-256 of first prompts: {shown}."
