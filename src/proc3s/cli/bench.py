@@ -15,8 +15,8 @@ def bench(
         str,
         typer.Argument(
             metavar="SUITE",
-            help="a suite of runs: see `proc3s list suites`, or a YAML file; or without an LLM `ccsp`: search "
-            "fixed programs, `execution`: carry out what is found",
+            help="a suite of runs (see `proc3s list suites`, or a YAML file); or, without an LLM, `ccsp`: "
+            "search fixed programs, `execution`: carry out what is found",
         ),
     ],
     tasks: Annotated[
