@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter
 
 from proc3s.reporting.charts import ACCEPTED, STYLE, colors_of, svg
 from proc3s.suites.results import Result, Results
@@ -44,8 +45,9 @@ def curves(results: Results) -> str | None:
         for (name, some), color in zip(lines.items(), colors_of([*lines]).values(), strict=True):
             taken = np.sort([r.episode.samples for r in some if r.episode.solved])
             share = 100 * np.arange(len(taken) + 1) / len(some)
-            axes.step([*taken, most], [*share[1:], share[-1]], where="post", color=color, label=name)
+            axes.step([0.9, *taken, most], [*share, share[-1]], where="post", color=color, label=name)
         axes.set_xscale("log")
+        axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,g}"))
         axes.set_ylim(0, 102)
         axes.set_xlabel("samples")
         axes.set_ylabel("% of the episodes solved")

@@ -76,7 +76,10 @@ Figures = Mapping[tuple[str, str, str], tuple[float, float | None]]
 
 
 def read_figures(path: Path | None) -> Figures:
-    """Published figures from a CSV file; none without a file. Raises UsageError for one that is not so."""
+    """Published figures from a CSV file, rows without a mean left out; none without a file.
+
+    Raises UsageError for a file that is not so.
+    """
     if path is None:
         return {}
     try:
@@ -87,6 +90,7 @@ def read_figures(path: Path | None) -> Figures:
                     float(row["std"]) if row["std"] else None,
                 )
                 for row in csv.DictReader(file)
+                if row["mean"]
             }
     except (OSError, KeyError, ValueError) as error:
         raise UsageError(f"the published figures {path} cannot be read: {error}") from error

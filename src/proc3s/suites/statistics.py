@@ -32,7 +32,7 @@ def wilson(successes: int, trials: int) -> Estimate:
     share, square = successes / trials, _Z**2
     middle = (share + square / (2 * trials)) / (1 + square / trials)
     half = _Z / (1 + square / trials) * math.sqrt(share * (1 - share) / trials + square / (4 * trials**2))
-    return Estimate(share, max(0.0, middle - half), min(1.0, middle + half))
+    return Estimate(share, min(share, max(0.0, middle - half)), max(share, min(1.0, middle + half)))
 
 
 def worse(successes: int, trials: int, best: int, of: int) -> float:
