@@ -19,44 +19,48 @@ from proc3s_drawing.geometry import StrokeGraph, angle_between
 
 def is_star(state: Any, plan: Plan) -> Score:
     """A closed star of at least 5 points, drawn as crossing strokes or as an outline."""
-    return _verdict(state, _star)
+    return verdict(state, _star)
 
 
 def is_arrow(state: Any, plan: Plan) -> Score:
     """A shaft with a head of two or three strokes whose ray meets the biggest obstacle before any other."""
-    return _verdict(state, lambda graph: _aim(_arrow(graph), state.obstacles))
+    return verdict(state, lambda graph: _aim(_arrow(graph), state.obstacles))
 
 
 def is_letter_m(state: Any, plan: Plan) -> Score:
     """Four strokes end to end that a person reads as a capital M, tilted by 20 degrees at most."""
-    return _verdict(state, _letter_m)
+    return verdict(state, _letter_m)
 
 
-def encloses(state: Any, plan: Plan, count: int = 2) -> Score:
-    """One closed curve that does not cross itself, with at least `count` whole obstacles inside."""
-    return _verdict(state, lambda graph: _enclosure(graph, state.obstacles, count))
+def encloses(state: Any, plan: Plan, count: int = 2, exact: bool = False) -> Score:
+    """One closed curve that does not cross itself, with at least `count` whole obstacles inside; if `exact`,
+    just so many, and it cuts no other."""
+    return verdict(state, lambda graph: _enclosure(graph, state.obstacles, count, exact))
 
 
-class _Refusal(Exception):
+class Refusal(Exception):
     """Why the drawing is not what it should be."""
 
 
-def _require(holds: bool, reason: str) -> None:
+def require(holds: bool, reason: str) -> None:
+    """Refuse for a reason where something does not hold."""
     if not holds:
-        raise _Refusal(reason)
+        raise Refusal(reason)
 
 
-def _within(what: str, value: float, low: float, high: float) -> None:
-    _require(low <= value <= high, f"{what}: {value:.2f}, it should be {low:g} to {high:g}")
+def within(what: str, value: float, low: float, high: float) -> None:
+    """Refuse a figure outside its bounds."""
+    require(low <= value <= high, f"{what}: {value:.2f}, it should be {low:g} to {high:g}")
 
 
-def _verdict(state: Any, read: Callable[[StrokeGraph], str]) -> Score:
+def verdict(state: Any, read: Callable[[StrokeGraph], str]) -> Score:
+    """What a reader of the drawing says of a state; it returns a reason or raises Refusal."""
     lines = [(line.p1_x, line.p1_y, line.p2_x, line.p2_y) for line in state.drawn_lines]
     try:
         graph = geo.stroke_graph(np.array(lines, dtype=np.float64).reshape(-1, 4))
-        _require(bool(graph.edges), "nothing is drawn, or only dots")
+        require(bool(graph.edges), "nothing is drawn, or only dots")
         return Score(True, read(graph))
-    except (_Refusal, geo.TangledError) as refusal:
+    except (Refusal, geo.TangledError) as refusal:
         return Score(False, str(refusal))
 
 
@@ -67,15 +71,15 @@ def _at(point: FloatArray) -> str:
 def _star(graph: StrokeGraph) -> str:
     _require_closed(graph)
     curves = geo.outlines(graph)
-    _require(len(curves) == 1, f"{len(curves)} separate closed shapes, a star is one")
+    require(len(curves) == 1, f"{len(curves)} separate closed shapes, a star is one")
     ring = geo.corners(curves[0], graph.tolerance)
     turn = geo.turns(ring)
     tips, inner = ring[turn > 0], int((turn < 0).sum())
-    _require(inner > 0, f"a closed convex polygon with {len(tips)} corners, no star: it has no inner corners")
+    require(inner > 0, f"a closed convex polygon with {len(tips)} corners, no star: it has no inner corners")
     count = f"a closed outline with {len(tips)} points and {inner} inner corners, no star"
     alternate = bool(np.all(turn * np.roll(turn, 1) < 0))
-    _require(alternate, f"{count}: a star has exactly one inner corner between one point and the next")
-    _require(len(tips) >= 5, f"a closed star with {len(tips)} points only, it needs at least 5")
+    require(alternate, f"{count}: a star has exactly one inner corner between one point and the next")
+    require(len(tips) >= 5, f"a closed star with {len(tips)} points only, it needs at least 5")
     _require_all_round(ring, tips)
     return f"a closed star with {len(tips)} points"
 
@@ -83,11 +87,11 @@ def _star(graph: StrokeGraph) -> str:
 def _require_closed(graph: StrokeGraph) -> None:
     loose = graph.of_degree(1, 1)
     if len(loose) == 1:
-        raise _Refusal(f"not closed: a stroke ends loose at {_at(graph.nodes[loose[0]])}")
+        raise Refusal(f"not closed: a stroke ends loose at {_at(graph.nodes[loose[0]])}")
     if loose:
         a, b = min(combinations(loose, 2), key=graph.length)
         ends = f"{_at(graph.nodes[a])} and {_at(graph.nodes[b])}"
-        raise _Refusal(f"the outline is not closed: {graph.length((a, b)):.1f} units between {ends}")
+        raise Refusal(f"the outline is not closed: {graph.length((a, b)):.1f} units between {ends}")
 
 
 def _require_all_round(ring: FloatArray, tips: FloatArray) -> None:
@@ -95,11 +99,11 @@ def _require_all_round(ring: FloatArray, tips: FloatArray) -> None:
     middle = tips.mean(axis=0)
     around = angle_between(ring - middle, np.roll(ring, -1, axis=0) - middle)
     zigzag = f"a closed zigzag, no star: it does not run once around its middle {_at(middle)}"
-    _require(bool(np.all(around > 0)), zigzag)
+    require(bool(np.all(around > 0)), zigzag)
     reach = np.linalg.norm(tips - middle, axis=1)
-    _within("the shortest point of the star as a share of the longest", reach.min() / reach.max(), 0.4, 1)
+    within("the shortest point of the star as a share of the longest", reach.min() / reach.max(), 0.4, 1)
     spread = angle_between(tips - middle, np.roll(tips, -1, axis=0) - middle).max()
-    _within("degrees between two points of the star", spread, 0, round(1.8 * 360 / len(tips)))
+    within("degrees between two points of the star", spread, 0, round(1.8 * 360 / len(tips)))
 
 
 @dataclass(frozen=True)
@@ -122,22 +126,22 @@ class _Arrow:
 
 def _arrow(graph: StrokeGraph) -> _Arrow:
     curves = geo.outlines(graph)
-    _require(len(curves) <= 1, f"{len(curves)} separate closed shapes, an arrow has one head")
+    require(len(curves) <= 1, f"{len(curves)} separate closed shapes, an arrow has one head")
     arrow = _closed_head(graph, curves[0]) if curves else _open_head(graph)
     _require_head(arrow)
     strokes = [(arrow.tail, arrow.tip), *((arrow.tip, barb) for barb in arrow.barbs), arrow.barbs]
     middles = np.stack([graph.nodes[[*edge]].mean(axis=0) for edge in sorted(graph.edges)])
     off = np.min([geo.segment_distance(middles, a, b) for a, b in strokes], axis=0)
     stray = f"the stroke at {_at(middles[off.argmax()])} belongs neither to the shaft nor to the head"
-    _require(off.max() <= 2 * graph.tolerance, stray)
+    require(off.max() <= 2 * graph.tolerance, stray)
     return arrow
 
 
 def _open_head(graph: StrokeGraph) -> _Arrow:
     """Of three strokes that meet in the tip, the shaft is a long one between the other two."""
     loose, forks = graph.of_degree(1, 1), graph.of_degree(3)
-    _require(bool(forks), "no head: two strokes must lead back from the tip of the shaft, and none does")
-    _require(
+    require(bool(forks), "no head: two strokes must lead back from the tip of the shaft, and none does")
+    require(
         len(forks) == 1 and len(loose) == 3 and len(graph.chains) == 3,
         "an arrow is a shaft and two strokes that meet at its tip, or a triangle on a shaft: here are "
         f"{len(loose)} loose ends and {len(forks)} points where strokes branch or cross, not 3 and 1",
@@ -153,13 +157,13 @@ def _open_head(graph: StrokeGraph) -> _Arrow:
 def _closed_head(graph: StrokeGraph, curve: FloatArray) -> _Arrow:
     """A triangle; the shaft reaches it in the side opposite to the tip."""
     head = geo.corners(curve, graph.tolerance)
-    _require(len(head) == 3, f"the closed head has {len(head)} corners, a triangle has 3")
+    require(len(head) == 3, f"the closed head has {len(head)} corners, a triangle has 3")
     tails = [end for end in graph.of_degree(1, 1) if not geo.inside(graph.nodes[end], curve)]
-    _require(len(tails) == 1, f"{len(tails)} loose ends outside the triangle: its shaft has one")
+    require(len(tails) == 1, f"{len(tails)} loose ends outside the triangle: its shaft has one")
     chain = next(chain for chain in graph.chains if tails[0] in (chain[0], chain[-1]))
     joint = chain[0] if chain[-1] == tails[0] else chain[-1]
     tail, meets = _far_end(graph, chain, joint), graph.nodes[joint]
-    _require(
+    require(
         bool(np.linalg.norm(head - meets, axis=1).min() > 2 * graph.tolerance),
         f"the shaft meets the triangle at its corner {_at(meets)}: it must meet the middle of a side, "
         "and the corner opposite to that side is the tip",
@@ -173,8 +177,8 @@ def _far_end(graph: StrokeGraph, chain: list[int], start: int) -> FloatArray:
     path = graph.nodes[chain if chain[0] == start else chain[::-1]]
     away = np.linalg.norm(path - path[0], axis=1)
     path = geo.simplify(np.concatenate([path[:1], path[away > 3 * graph.tolerance]]), graph.tolerance)
-    _require(len(path) > 1, f"the stroke at {_at(path[0])} is too short to see")
-    _require(len(path) == 2, f"shaft and head are straight strokes, but one bends at {_at(path[1])}")
+    require(len(path) > 1, f"the stroke at {_at(path[0])} is too short to see")
+    require(len(path) == 2, f"shaft and head are straight strokes, but one bends at {_at(path[1])}")
     end: FloatArray = path[1]
     return end
 
@@ -182,18 +186,18 @@ def _far_end(graph: StrokeGraph, chain: list[int], start: int) -> FloatArray:
 def _require_head(arrow: _Arrow) -> None:
     narrow, wide = sorted(np.abs(arrow.leans).tolist())
     rule = "the two strokes of the head must lead back along the shaft, one on each side, at 8 to 72 degrees"
-    _require(8 <= narrow <= wide <= 72, f"{rule}: they lead off at {narrow:.0f} and {wide:.0f} degrees")
-    _require(arrow.leans[0] * arrow.leans[1] < 0, f"{rule}: they are on the same side")
-    _within("a lopsided head: the difference of its two angles in degrees", wide - narrow, 0, 20)
+    require(8 <= narrow <= wide <= 72, f"{rule}: they lead off at {narrow:.0f} and {wide:.0f} degrees")
+    require(arrow.leans[0] * arrow.leans[1] < 0, f"{rule}: they are on the same side")
+    within("a lopsided head: the difference of its two angles in degrees", wide - narrow, 0, 20)
     short, long = sorted(float(np.linalg.norm(barb - arrow.tip)) for barb in arrow.barbs)
-    _within("a lopsided head: its shorter stroke as a share of the longer", short / long, 0.6, 1)
-    _within("the length of the head's strokes as a share of the arrow's", long / arrow.length, 0.05, 0.8)
+    within("a lopsided head: its shorter stroke as a share of the longer", short / long, 0.6, 1)
+    within("the length of the head's strokes as a share of the arrow's", long / arrow.length, 0.05, 0.8)
     back = long * np.cos(np.radians(narrow)) / arrow.length
-    _within("how far the head leads back as a share of the length of the arrow", back, 0, 0.7)
+    within("how far the head leads back as a share of the length of the arrow", back, 0, 0.7)
 
 
 def _aim(arrow: _Arrow, obstacles: Sequence[Any]) -> str:
-    _require(bool(obstacles), "there is no obstacle to point at")
+    require(bool(obstacles), "there is no obstacle to point at")
     ahead = arrow.tip - arrow.tail
     way = [geo.ray_to_circle(arrow.tip, ahead, _centre(o), o.radius) for o in obstacles]
     # Of several that are biggest, the one that the arrow meets first.
@@ -203,9 +207,9 @@ def _aim(arrow: _Arrow, obstacles: Sequence[Any]) -> str:
     off = float(angle_between(ahead, _centre(biggest) - arrow.tip))
     beside = f"its centre lies {abs(off):.0f} degrees to the {'left' if off > 0 else 'right'}"
     missed = f"the arrow does not point at {name}: {beside}, seen from the tip {_at(arrow.tip)}"
-    _require(way[target] < np.inf, missed)
+    require(way[target] < np.inf, missed)
     met = f"the arrow meets {first.name} (radius {first.radius:.1f}) before {name}"
-    _require(first.radius == biggest.radius, met)
+    require(first.radius == biggest.radius, met)
     return f"an arrow that points at {name}"
 
 
@@ -217,8 +221,8 @@ def _letter_m(graph: StrokeGraph) -> str:
     points = _four_strokes(graph)
     up = _upright(points)
     tilt = float(angle_between(np.array([0.0, 1.0]), up))
-    _require(abs(tilt) < 100, f"upside down, more like a W: {abs(tilt):.0f} degrees from upright")
-    _require(abs(tilt) <= 24, f"tilted by {abs(tilt):.0f} degrees, more than 20")
+    require(abs(tilt) < 100, f"upside down, more like a W: {abs(tilt):.0f} degrees from upright")
+    require(abs(tilt) <= 24, f"tilted by {abs(tilt):.0f} degrees, more than 20")
     _require_proportions(points @ np.array([[up[1], up[0]], [-up[0], up[1]]]))
     return f"a letter M, {abs(tilt):.0f} degrees from upright"
 
@@ -227,12 +231,12 @@ def _four_strokes(graph: StrokeGraph) -> FloatArray:
     """Foot, top, middle, top, foot: shape (5, 2), from either side."""
     forks, rule = graph.of_degree(3), "the four strokes of an M join end to end, from foot to foot"
     crossings = ", ".join(_at(graph.nodes[fork]) for fork in forks)
-    _require(not forks, f"{rule}: here strokes branch or cross at {crossings}")
-    _require(bool(graph.chains), f"{rule}: here they close a loop")
-    _require(len(graph.chains) == 1, f"{rule}: here are {len(graph.chains)} separate lines")
-    _require({*graph.chains[0]} == {*graph.neighbours}, f"{rule}: here is a closed loop besides")
+    require(not forks, f"{rule}: here strokes branch or cross at {crossings}")
+    require(bool(graph.chains), f"{rule}: here they close a loop")
+    require(len(graph.chains) == 1, f"{rule}: here are {len(graph.chains)} separate lines")
+    require({*graph.chains[0]} == {*graph.neighbours}, f"{rule}: here is a closed loop besides")
     points = geo.simplify(graph.nodes[graph.chains[0]], graph.tolerance)
-    _require(len(points) == 5, f"{rule}: this line has {len(points) - 1} straight strokes")
+    require(len(points) == 5, f"{rule}: this line has {len(points) - 1} straight strokes")
     return points
 
 
@@ -241,7 +245,7 @@ def _upright(points: FloatArray) -> FloatArray:
     foot, top, _, other_top, other_foot = points
     legs = _unit(top - foot) + _unit(other_top - other_foot)
     side_by_side = bool(np.linalg.norm(legs) > 1)
-    _require(side_by_side, "the first and the last stroke of an M are legs that stand side by side")
+    require(side_by_side, "the first and the last stroke of an M are legs that stand side by side")
     across = _unit(other_top - top) + _unit(other_foot - foot)
     normal = np.array([-across[1], across[0]])
     return _unit(_unit(legs) + _unit(normal if normal @ legs > 0 else -normal))
@@ -256,24 +260,24 @@ def _require_proportions(points: FloatArray) -> None:
     """Of an M that stands upright in its own frame, x to the right, y up."""
     foot, top, middle, other_top, other_foot = points if points[1, 0] < points[3, 0] else points[::-1]
     for x, y in (top - foot, other_top - other_foot):
-        _within("a zigzag, no M: degrees by which a leg slants", np.degrees(np.arctan2(x, y)), -20, 20)
+        within("a zigzag, no M: degrees by which a leg slants", np.degrees(np.arctan2(x, y)), -20, 20)
     short, long = sorted([top[1] - foot[1], other_top[1] - other_foot[1]])
-    _within("the shorter leg of the M as a share of the longer", short / long, 0.7, 1)
+    within("the shorter leg of the M as a share of the longer", short / long, 0.7, 1)
     height, wide, base = (short + long) / 2, other_top[0] - top[0], other_foot[0] - foot[0]
     level = max(abs(top[1] - other_top[1]), abs(foot[1] - other_foot[1]))
-    _within("how much higher one leg of the M stands as a share of its height", level / height, 0, 0.25)
-    _within("the width of the M as a share of its height", (wide + base) / 2 / height, 0.35, 2)
-    _within("the distance of the feet of the M as a share of that of its tops", base / wide, 0.7, 2.5)
+    within("how much higher one leg of the M stands as a share of its height", level / height, 0, 0.25)
+    within("the width of the M as a share of its height", (wide + base) / 2 / height, 0.35, 2)
+    within("the distance of the feet of the M as a share of that of its tops", base / wide, 0.7, 2.5)
     depth = (top[1] + other_top[1]) / 2 - middle[1]
-    _within("how far down the middle of the M reaches as a share of its height", depth / height, 0.3, 1.1)
-    _within("how far from leg to leg the middle of the M stands", (middle[0] - top[0]) / wide, 0.25, 0.75)
+    within("how far down the middle of the M reaches as a share of its height", depth / height, 0.3, 1.1)
+    within("how far from leg to leg the middle of the M stands", (middle[0] - top[0]) / wide, 0.25, 0.75)
 
 
-def _enclosure(graph: StrokeGraph, obstacles: Sequence[Any], count: int) -> str:
+def _enclosure(graph: StrokeGraph, obstacles: Sequence[Any], count: int, exact: bool) -> str:
     curves = geo.outlines(graph)
     if not curves:
         _require_closed(graph)
-    _require(bool(curves), "no closed curve is wide enough to hold anything")
+    require(bool(curves), "no closed curve is wide enough to hold anything")
     found = [[_position(obstacle, curve) for obstacle in obstacles] for curve in curves]
     best = max(found, key=lambda positions: positions.count("inside"))
     within = [o.name for o, position in zip(obstacles, best, strict=True) if position == "inside"]
@@ -282,7 +286,7 @@ def _enclosure(graph: StrokeGraph, obstacles: Sequence[Any], count: int) -> str:
     reason += f": {', '.join(within)}" if within else ""
     reason += f"; it cuts {', '.join(cut)}" if cut else ""
     reason += f"; there are {len(curves)} curves, each counts by itself" if len(curves) > 1 else ""
-    _require(len(within) >= count, reason)
+    require(len(within) >= count and not (exact and (cut or len(within) > count)), reason)
     return f"a closed curve encloses {', '.join(within)}"
 
 

@@ -23,6 +23,7 @@ from pydantic import (
 from proc3s.errors import Issue, SpecError, did_you_mean
 
 Identifier = Annotated[str, Field(pattern=r"^[A-Za-z_][A-Za-z0-9_]*$", max_length=80)]
+TaskName = Annotated[str, Field(pattern=r"^[A-Za-z_][A-Za-z0-9_-]*$", max_length=80)]
 ImportString = Annotated[str, Field(pattern=r"^[\w.]+:\w+$", examples=["my_package.world:MyWorld"])]
 FieldType = Annotated[str, Field(pattern=r"^(\w+|list\[\w+\]|dict\[\w+\])$")]
 
@@ -216,7 +217,7 @@ class TaskSpec(Spec):
     """A task: an instruction, a scene, and judges that must all be satisfied."""
 
     kind: ClassVar[str] = "tasks"
-    name: Identifier = ""
+    name: TaskName = ""
     """Its key, where it stands in a mapping; a plugin gives it."""
     instruction: str | None = None
     """What to do, in plain language; without it the task needs `--goal`."""
@@ -273,7 +274,7 @@ class DomainSpec(Spec):
     """Names of further skills, samplers and constraints that plugins bring."""
     screens: tuple[ScreenSpec, ...] = ()
     """Cheap tests before the world, in order."""
-    tasks: Annotated[dict[Identifier, TaskSpec], Named]
+    tasks: Annotated[dict[TaskName, TaskSpec], Named]
     """Tasks of this domain."""
     budget: dict[str, int]
     """Samples per problem by preset."""

@@ -4,7 +4,9 @@ import pytest
 
 TASKS = {f"drawing/{t}" for t in ("star", "arrow", "letters", "enclosed", "free")}
 TASKS |= {f"blocks/{t}" for t in ("pyramid", "line", "packing", "unstack")}
-TASKS |= {"ycb/packing", "ycb/stacking"}
+TASKS |= {f"ycb/{t}" for t in ("packing", "stacking", "line")}
+TASKS |= {f"drawing/{t}" for t in ("word", "spiral", "enclose-three")}
+TASKS |= {f"blocks/{t}" for t in ("pyramid-six", "tower", "sort", "reverse", "grid")}
 
 
 def test_help_names_every_command(cli):
