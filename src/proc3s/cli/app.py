@@ -10,6 +10,7 @@ import typer
 from proc3s.cli import (
     bench,
     catalogue,
+    check,
     compare,
     doctor,
     explain,
@@ -59,6 +60,7 @@ _COMMANDS: dict[str, Callable[..., Any]] = {
     "bench": bench.bench,
     "compare": compare.compare,
     "judge": judge.judge,
+    "check": check.check,
     "list": catalogue.list_,
     "show": catalogue.show,
     "plugins": plugins.plugins,
