@@ -17,7 +17,7 @@ needs_tabletop = pytest.mark.skipif(find_spec("pybullet") is None, reason="needs
 
 
 class TestDrawing(DomainTests):
-    @pytest.fixture(scope="class")
+    @pytest.fixture
     def domain_name(self):
         return "drawing"
 
@@ -25,7 +25,7 @@ class TestDrawing(DomainTests):
 @pytest.mark.slow
 @needs_tabletop
 class TestBlocks(DomainTests):
-    @pytest.fixture(scope="class")
+    @pytest.fixture
     def domain_name(self):
         return "blocks"
 
@@ -33,13 +33,13 @@ class TestBlocks(DomainTests):
 @pytest.mark.slow
 @needs_tabletop
 class TestYcb(DomainTests):
-    @pytest.fixture(scope="class")
+    @pytest.fixture
     def domain_name(self):
         return "ycb"
 
 
 class TestCollision(ConstraintTests):
-    @pytest.fixture(scope="class")
+    @pytest.fixture
     def domain_name(self):
         return "drawing"
 

@@ -15,6 +15,7 @@ from proc3s.cli import (
     doctor,
     explain,
     judge,
+    new,
     plugins,
     render_prompt,
     replay,
@@ -69,6 +70,9 @@ _COMMANDS: dict[str, Callable[..., Any]] = {
 }
 for _name, _command in _COMMANDS.items():
     app.command(name=_name)(_guarded(_command))
+for _name, _command in {"domain": new.domain, "solver": new.solver, "llm": new.llm}.items():
+    new.new.command(name=_name)(_guarded(_command))
+app.add_typer(new.new, name="new", no_args_is_help=True)
 
 
 def _print_version(wanted: bool) -> None:

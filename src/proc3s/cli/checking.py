@@ -57,10 +57,10 @@ def _found(wanted: str, plugins: Sequence[Path]) -> tuple[Registry, str]:
         registry = open_registry(plugins)
         return registry, registry.get(DomainSpec, wanted).name
     file = _file(path)
-    name = load_domain(file).name
     package = (file.parent / "__init__.py").is_file()
     # its targets name the package, or modules beside the file
     sys.path.insert(0, str((file.parent.parent if package else file.parent).resolve()))
+    name = load_domain(file).name
     registry = open_registry(plugins)
     if name in registry.all(DomainSpec):
         return registry, name

@@ -72,9 +72,9 @@ def _finite(value: Any) -> bool:
 
 
 def prompts(subject: Subject) -> Iterator[Fault]:
-    """The prompt of every task renders for every method."""
+    """The prompt of every task renders for every template of a method."""
     for name in subject.spec.tasks:
-        for method in subject.methods:
+        for method in {method.template: method for method in reversed(subject.methods)}.values():
             problem = subject.problem(name, method=method.name)
             options = RunOptions(**{"task": f"{subject.spec.name}/{name}", "method": method.name})  # type: ignore[arg-type]
             try:

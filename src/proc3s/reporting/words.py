@@ -35,7 +35,7 @@ class Words:
         )
         self._environment.filters |= {"number": number, "sampler": sampler, "ticks": ticks}
 
-    def render(self, name: str, **variables: Any) -> str:
+    def render(self, name: str, /, **variables: Any) -> str:
         """The text of a template."""
         try:
             return self._environment.get_template(name).render(**variables)

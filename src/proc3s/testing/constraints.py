@@ -7,21 +7,22 @@ from proc3s.conformance.stepping import margins, screens
 from proc3s.conformance.subject import Subject
 from proc3s.constraints import check as check_step
 from proc3s.registry import Registry, open_registry
+from proc3s.testing.domains import once
 
 
 class ConstraintTests:
     """A constraint on the bundled plans of a domain. Override `domain_name` and `constraint_name`; and
     `registry`, where the constraint is in a loose file: `open_registry([path])`."""
 
-    @pytest.fixture(scope="class")
+    @pytest.fixture
     def registry(self) -> Registry:
         """The plugins that are installed."""
         return open_registry()
 
-    @pytest.fixture(scope="class")
+    @pytest.fixture
     def subject(self, registry: Registry, domain_name: str) -> Subject:
         """The domain that the constraint is brought to."""
-        return Subject(registry, domain_name)
+        return once(self, registry, domain_name)
 
     def test_the_domain_has_it(self, subject: Subject, constraint_name: str) -> None:
         """By its `domains`, or by the domain's `use`."""
@@ -53,7 +54,7 @@ class ScreenTests:
 
     seconds = 10.0
 
-    @pytest.fixture(scope="class")
+    @pytest.fixture
     def registry(self) -> Registry:
         """The plugins that are installed."""
         return open_registry()

@@ -10,19 +10,28 @@ from proc3s.conformance.subject import Subject
 from proc3s.registry import Registry, open_registry
 
 
+def once(tests: object, registry: Registry, name: str, seconds: float = 20.0) -> Subject:
+    """The subject of a class of tests: its plans are made for the first of them."""
+    made: dict[str, Subject] = vars(type(tests)).get("_made") or {}
+    if name not in made:
+        made[name] = Subject(registry, name, seconds)
+        type(tests)._made = made  # type: ignore[attr-defined]
+    return made[name]
+
+
 class DomainTests:
     """What solvers, workers, models and judges rely on. Override `domain_name`, and `registry` for a domain
     that is not installed: `open_registry([path])`."""
 
-    @pytest.fixture(scope="class")
+    @pytest.fixture
     def registry(self) -> Registry:
         """The plugins that are installed."""
         return open_registry()
 
-    @pytest.fixture(scope="class")
+    @pytest.fixture
     def subject(self, registry: Registry, domain_name: str) -> Subject:
         """The domain under examination; a screen's mistakes are looked for during ten seconds."""
-        return Subject(registry, domain_name, seconds=10.0)
+        return once(self, registry, domain_name, 10.0)
 
     @pytest.mark.parametrize("check", CHECKS, ids=lambda check: check.name)
     def test_conformance(self, subject: Subject, check: Check) -> None:
