@@ -14,6 +14,8 @@ from typer.testing import CliRunner
 
 from provider import running
 
+collect_ignore = ["example_plugin"]  # a package of its own, tested where it is installed
+
 
 @dataclass(frozen=True)
 class Result:

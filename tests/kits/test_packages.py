@@ -3,6 +3,7 @@ environments, beside the wheel."""
 
 import json
 import os
+import shutil
 import subprocess
 import sys
 import venv
@@ -69,7 +70,8 @@ class TestInstalled:
         return folder
 
     def test_their_tests_pass(self, clean):
-        tests = [EXAMPLE / "tests", *(clean / f"my_{kind}" for kind in ("domain", "solver", "llm"))]
+        shutil.copytree(EXAMPLE, clean / "push")  # outside the repository, whose options are its own
+        tests = [clean / "push/tests", *(clean / f"my_{kind}" for kind in ("domain", "solver", "llm"))]
         for folder in tests:
             call(clean / "venv/bin/python", "-m", "pytest", "-q", "-p", "no:cacheprovider", folder, cwd=clean)
 

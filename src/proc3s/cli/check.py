@@ -10,7 +10,9 @@ from proc3s.cli import arguments as a
 def check(
     domain: Annotated[
         str,
-        typer.Argument(metavar="NAME|PATH", help="an installed domain, a domain.yaml, or a folder with one"),
+        typer.Argument(
+            metavar="DOMAIN", help="name of an installed domain, a domain.yaml, or a folder with one"
+        ),
     ],
     seconds: Annotated[
         float, typer.Option("--seconds", min=0, help="time for finding plans that a screen rejects wrongly")
