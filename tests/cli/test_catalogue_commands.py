@@ -78,7 +78,7 @@ def test_one_kind(cli, kind):
         ("draw_line", ["p1_x", "straight line"]),
         ("drawing/collision", ["line touches {obstacle}"]),
         ("ContinuousSampler", ["uniformly", "min"]),
-        ("paper", ["budget"]),
+        ("paper", ["budget", "paper  (suite)", "blocks/unstack"]),
         ("serial", ["process"]),
     ],
 )

@@ -1,5 +1,6 @@
 """`proc3s check`: what it finds in domains that are wrong in one way each, and how it says it."""
 
+import re
 import shutil
 import sys
 from pathlib import Path
@@ -103,7 +104,7 @@ def test_what_is_wrong_is_found_with_its_place_and_how_to_mend_it(check, push, c
     findings = [f for f in result.json["findings"] if f["check"] == check and f["level"] == "error"]
     assert any(words in f["text"] + f["where"] for f in findings), result.json["findings"]
     for finding in findings:
-        assert finding["where"]
+        assert re.search(r"\.py:\d+$|domain\.yaml$|\.md$", finding["where"]), finding["where"]
         assert finding["why"]
         assert finding["mend"]
     shown = cli("check", push)

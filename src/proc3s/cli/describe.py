@@ -56,27 +56,29 @@ def _rows(registry: Registry, kind: str) -> Iterator[tuple[str, str]]:
 
 
 def print_spec(name: str, plugins: Sequence[Path], as_json: bool) -> None:
-    """One spec of any kind, found by its name. Raises UsageError if there is none."""
+    """The specs of a name; with `as_json` the first, of kinds that share it. Raises UsageError if none is."""
     registry = open_registry(plugins)
-    spec = _find(registry, name)
+    specs = _find(registry, name)
     if as_json:
-        typer.echo(spec.model_dump_json(indent=2))
+        typer.echo(specs[0].model_dump_json(indent=2))
         return
     out = Console(soft_wrap=True, highlight=False)
-    for line in _describe(registry, spec):
-        out.print(line)
+    for spec in specs:
+        for line in _describe(registry, spec):
+            out.print(line)
 
 
-def _find(registry: Registry, name: str) -> Spec:
-    known: dict[str, Spec] = {}
+def _find(registry: Registry, name: str) -> list[Spec]:
+    """Registered specs, a preset and a suite of one name, say; else a part of a domain."""
+    known: dict[str, list[Spec]] = {}
     for cls in KINDS.values():
         for spec_name, spec in registry.all(cls).items():
-            known.setdefault(spec_name, spec)
+            known.setdefault(spec_name, []).append(spec)
     for domain in registry.all(DomainSpec).values():
         for part in (domain.tasks, domain.skills, domain.constraints):
             for spec in part.values():
-                known.setdefault(f"{domain.name}/{spec.name}", spec)
-                known.setdefault(spec.name, spec)
+                known.setdefault(f"{domain.name}/{spec.name}", [spec])
+                known.setdefault(spec.name, [spec])
     if name not in known:
         raise UsageError(f"there is no {name!r}{did_you_mean(name, known)}")
     return known[name]

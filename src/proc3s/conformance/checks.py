@@ -8,7 +8,7 @@ from typing import TypeAlias
 from pydantic import BaseModel, ConfigDict
 
 from proc3s.conformance import judging, reading, stepping
-from proc3s.conformance.fault import Fault
+from proc3s.conformance.fault import Fault, located
 from proc3s.conformance.subject import Subject, explain
 
 Run: TypeAlias = Callable[[Subject], Iterator[Fault]]
@@ -138,7 +138,7 @@ def findings(check: Check, subject: Subject) -> list[CheckFinding]:
             level="error" if fault.error else "note",
             check=check.name,
             text=fault.text,
-            where=fault.where or subject.file,
+            where=located(fault.where) or subject.file,
             why=check.why,
             mend=fault.mend or check.mend,
         )

@@ -1,6 +1,13 @@
 """What a check says, before it is put into words for a person."""
 
+import inspect
+import re
 from dataclasses import dataclass
+
+from proc3s.errors import SpecError
+from proc3s.specs import Target
+
+_TARGET = re.compile(r"[\w.]+:\w+")
 
 
 @dataclass(frozen=True)
@@ -11,3 +18,14 @@ class Fault:
     where: str = ""
     mend: str = ""
     error: bool = True
+
+
+def located(where: str) -> str:
+    """`file:line` of what an import string names; anything else as it is."""
+    if not _TARGET.fullmatch(where):
+        return where
+    try:
+        named = Target(target=where).load()
+        return f"{inspect.getsourcefile(named)}:{inspect.getsourcelines(named)[1]}"
+    except (SpecError, TypeError, OSError):
+        return where
