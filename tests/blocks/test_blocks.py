@@ -8,44 +8,18 @@ import re
 import numpy as np
 import pytest
 
-from proc3s.evaluation import Evaluator
+from boxing import box, trials
 from proc3s.options import RunOptions, make_problem
 from proc3s.problem import carry_out, judge
 from proc3s.prompts import example_turns
 from proc3s.registry import open_registry
-from proc3s.setup_code import setup_code
-from proc3s.sketch import BoxedSketch, Program, extract_program
-from proc3s.state import source_text
+from proc3s.sketch import extract_program
 
 REGISTRY = open_registry()
 BLOCKS = REGISTRY.domain("blocks")
 TASKS = ("pyramid", "line", "packing", "unstack")
 BENCH = sorted((BLOCKS.spec.folder / "bench").glob("*.py"))
 EXAMPLE = BLOCKS.spec.examples["tower"]
-
-
-def box(source, answer, state):
-    return BoxedSketch(
-        Program(
-            source=source,
-            answer=answer,
-            prelude=setup_code(BLOCKS),
-            initial=source_text(state),
-            signatures=BLOCKS.signatures(state),
-            samplers=BLOCKS.samplers,
-        )
-    )
-
-
-def trials(sketch, problem, samples):
-    from proc3s_executors.serial import Serial
-
-    executor = Serial()
-    u = np.random.default_rng(0).random((samples, sketch.space.dim))
-    try:
-        yield from Evaluator(problem, sketch, executor).stream(u)
-    finally:
-        executor.close()
 
 
 @pytest.fixture
@@ -105,7 +79,7 @@ def gen_plan(initial):
     return [Action("pick", first.point)]
 """
     state = BLOCKS.scene(BLOCKS.spec.tasks["packing"], 0)
-    with box(source, "program", state) as sketch:
+    with box(BLOCKS, source, "program", state) as sketch:
         (action,) = sketch.plans(np.zeros((1, 0)), first=0).plan(0)
     pose = state.objects["object_0"].pose
     assert action.args == pytest.approx((pose.x, pose.y, pose.z))
@@ -115,7 +89,7 @@ def gen_plan(initial):
 def test_a_sketch_of_the_benchmark_gives_plans(path):
     task = path.name.split(".")[0]
     state = BLOCKS.scene(BLOCKS.spec.tasks[task], 0)
-    with box(path.read_text(encoding="utf-8"), "sketch", state) as sketch:
+    with box(BLOCKS, path.read_text(encoding="utf-8"), "sketch", state) as sketch:
         batch = sketch.plans(np.random.default_rng(0).random((8, sketch.space.dim)), first=0)
     assert not batch.errors
     assert {action.skill for k in range(8) for action in batch.plan(k)} == {"pick", "place"}
@@ -144,11 +118,11 @@ def example_problem():
 def test_the_example_fails_as_its_feedback_says_and_then_succeeds():
     problem = example_problem()
     (first, second), (feedback,) = answers_of_example("sketch")
-    with box(extract_program(first), "sketch", problem.initial) as sketch:
+    with box(BLOCKS, extract_program(first), "sketch", problem.initial) as sketch:
         (failed,) = trials(sketch, problem, 1)
     violation = failed.violations[0]
     assert f"step {violation.step}, action {violation.skill}: {violation.text}" in feedback
-    with box(extract_program(second), "sketch", problem.initial) as sketch:
+    with box(BLOCKS, extract_program(second), "sketch", problem.initial) as sketch:
         accepted = next(trial for trial in trials(sketch, problem, 30) if trial.accepted)
     assert reaches_goal(problem, accepted.plan)
 
@@ -157,7 +131,7 @@ def test_the_example_fails_as_its_feedback_says_and_then_succeeds():
 def test_the_example_shows_plans_that_reach_its_goal(kind, answer):
     problem = example_problem()
     (text,), _ = answers_of_example(kind)
-    with box(extract_program(text), answer, problem.initial) as sketch:
+    with box(BLOCKS, extract_program(text), answer, problem.initial) as sketch:
         plan = sketch.plans(np.zeros((1, 0)), first=0).plan(0)
     assert reaches_goal(problem, plan)
 

@@ -5,32 +5,18 @@ import re
 import numpy as np
 import pytest
 
+from boxing import box
 from proc3s import MethodSpec, PresetSpec
 from proc3s.evaluation import Evaluator
 from proc3s.options import RunOptions, make_problem
 from proc3s.problem import carry_out
 from proc3s.prompts import example_turns
 from proc3s.registry import open_registry
-from proc3s.setup_code import setup_code
-from proc3s.sketch import BoxedSketch, Program, extract_program
-from proc3s.state import source_text
+from proc3s.sketch import extract_program
 
 REGISTRY = open_registry()
 DRAWING = REGISTRY.domain("drawing")
 ANSWERS = sorted((DRAWING.spec.folder / "answers").glob("*.md"))
-
-
-def box(source, answer, state):
-    return BoxedSketch(
-        Program(
-            source=source,
-            answer=answer,
-            prelude=setup_code(DRAWING),
-            initial=source_text(state),
-            signatures=DRAWING.signatures(state),
-            samplers=DRAWING.samplers,
-        )
-    )
 
 
 def accepted_plan(sketch, problem, samples, seed=0):
@@ -61,7 +47,7 @@ def test_an_authored_answer_runs(path):
     task, template, *_ = path.name.split(".")
     answer = {"proc3s": "sketch", "cap": "program", "llm3": "plan"}[template]
     problem = make_problem(REGISTRY, RunOptions(task=f"drawing/{task}"))
-    with box(extract_program(text), answer, problem.initial) as sketch:
+    with box(DRAWING, extract_program(text), answer, problem.initial) as sketch:
         batch = sketch.plans(
             np.random.default_rng(0).random((50 if sketch.space.dim else 1, sketch.space.dim))
         )
@@ -80,7 +66,7 @@ def test_the_square_of_the_worked_example_is_a_square(kind):
     problem = dataclasses.replace(problem, scene=json.dumps(DRAWING.states.dump(state)))
     ((turn, text),) = example_turns(problem, example, kind)
     assert turn == "answer"
-    with box(extract_program(text), kind, state) as sketch:
+    with box(DRAWING, extract_program(text), kind, state) as sketch:
         plan = accepted_plan(sketch, problem, 300 if kind == "sketch" else 1)
     assert plan is not None
     trial, _ = carry_out(DRAWING.make_world(), problem, plan, stop=False)

@@ -7,44 +7,18 @@ import json
 import numpy as np
 import pytest
 
-from proc3s.evaluation import Evaluator
+from boxing import box, trials
 from proc3s.options import RunOptions, make_problem
 from proc3s.problem import carry_out, judge
 from proc3s.prompts import example_turns
 from proc3s.registry import open_registry
-from proc3s.setup_code import setup_code
-from proc3s.sketch import BoxedSketch, Program, extract_program
-from proc3s.state import source_text
+from proc3s.sketch import extract_program
 from proc3s_tabletop.body_specs import bodies_of
 
 REGISTRY = open_registry()
 YCB = REGISTRY.domain("ycb")
 TASKS = {"packing": 3, "stacking": 6}
 EXAMPLE = YCB.spec.examples["centre"]
-
-
-def box(source, answer, state):
-    return BoxedSketch(
-        Program(
-            source=source,
-            answer=answer,
-            prelude=setup_code(YCB),
-            initial=source_text(state),
-            signatures=YCB.signatures(state),
-            samplers=YCB.samplers,
-        )
-    )
-
-
-def trials(sketch, problem, samples):
-    from proc3s_executors.serial import Serial
-
-    executor = Serial()
-    u = np.random.default_rng(0).random((samples, sketch.space.dim))
-    try:
-        yield from Evaluator(problem, sketch, executor).stream(u)
-    finally:
-        executor.close()
 
 
 @pytest.fixture
@@ -104,7 +78,7 @@ def gen_plan(initial):
     return [Action("pick", [berry.body, by_numpy]), Action("place", ["object_1", by_hand, spot])]
 """
     state = YCB.scene(YCB.spec.tasks["packing"], 0)
-    with box(source, "program", state) as sketch:
+    with box(YCB, source, "program", state) as sketch:
         pick, place = sketch.plans(np.zeros((1, 0)), first=0).plan(0)
     assert pick.args[1] == place.args[1]
     pose = state.objects["object_1"].pose
@@ -133,12 +107,12 @@ def answers_of_example(kind):
 def test_the_example_fails_as_its_feedback_says_and_then_succeeds():
     problem = example_problem()
     (first, second), (feedback,) = answers_of_example("sketch")
-    with box(extract_program(first), "sketch", problem.initial) as sketch:
+    with box(YCB, extract_program(first), "sketch", problem.initial) as sketch:
         failed = [trial.violations[0] for trial in trials(sketch, problem, 12)]
     for violation in failed:
         assert f"step {violation.step}, action {violation.skill}: {violation.text}" in feedback
     assert len({violation.step for violation in failed}) == 2
-    with box(extract_program(second), "sketch", problem.initial) as sketch:
+    with box(YCB, extract_program(second), "sketch", problem.initial) as sketch:
         accepted = next(trial for trial in trials(sketch, problem, 60) if trial.accepted)
     assert reaches_goal(problem, accepted.plan)
 
@@ -147,7 +121,7 @@ def test_the_example_fails_as_its_feedback_says_and_then_succeeds():
 def test_the_example_shows_plans_that_reach_its_goal(kind, answer):
     problem = example_problem()
     (text,), _ = answers_of_example(kind)
-    with box(extract_program(text), answer, problem.initial) as sketch:
+    with box(YCB, extract_program(text), answer, problem.initial) as sketch:
         plan = sketch.plans(np.zeros((1, 0)), first=0).plan(0)
     assert reaches_goal(problem, plan)
 
