@@ -52,23 +52,24 @@ def test_a_begun_domain_is_a_sound_one(cli, here, monkeypatch):
     assert cli("check", "shelves", "--json").json["errors"] == 0
 
 
+@pytest.fixture(scope="module")
+def clean(tmp_path_factory):
+    """An environment with the wheel, pytest, the example, and one package of every kind."""
+    folder = tmp_path_factory.mktemp("author")
+    call(sys.executable, "-m", "build", "--wheel", "--outdir", folder, ROOT, cwd=folder)
+    venv.create(folder / "venv", with_pip=True)
+    pip = (folder / "venv/bin/pip", "install", "-q")
+    call(*pip, next(folder.glob("*.whl")), "pytest>=8.2", cwd=folder)
+    for kind in ("domain", "solver", "llm"):
+        call(folder / "venv/bin/proc3s", "new", kind, f"my_{kind}", cwd=folder)
+    packages = [f"./my_{kind}" for kind in ("domain", "solver", "llm")]
+    call(*pip, EXAMPLE, *packages, cwd=folder)
+    return folder
+
+
 @pytest.mark.slow
 @pytest.mark.xdist_group("wheel")
 class TestInstalled:
-    @pytest.fixture(scope="module")
-    def clean(self, tmp_path_factory):
-        """An environment with the wheel, pytest, the example, and one package of every kind."""
-        folder = tmp_path_factory.mktemp("author")
-        call(sys.executable, "-m", "build", "--wheel", "--outdir", folder, ROOT, cwd=folder)
-        venv.create(folder / "venv", with_pip=True)
-        pip = (folder / "venv/bin/pip", "install", "-q")
-        call(*pip, next(folder.glob("*.whl")), "pytest>=8.2", cwd=folder)
-        for kind in ("domain", "solver", "llm"):
-            call(folder / "venv/bin/proc3s", "new", kind, f"my_{kind}", cwd=folder)
-        packages = [f"./my_{kind}" for kind in ("domain", "solver", "llm")]
-        call(*pip, EXAMPLE, *packages, cwd=folder)
-        return folder
-
     def test_their_tests_pass(self, clean):
         shutil.copytree(EXAMPLE, clean / "push")  # outside the repository, whose options are its own
         tests = [clean / "push/tests", *(clean / f"my_{kind}" for kind in ("domain", "solver", "llm"))]
