@@ -90,7 +90,12 @@ def never(state, batch):
 """
 
 
-@pytest.mark.parametrize("check", BROKEN)
+def _marked(case):
+    """A check of everything takes seconds, twice; a few show that it works."""
+    return pytest.param(case, marks=[] if case in ("targets", "judges", "screens") else [pytest.mark.slow])
+
+
+@pytest.mark.parametrize("check", map(_marked, BROKEN))
 def test_what_is_wrong_is_found_with_its_place_and_how_to_mend_it(check, push, cli):
     name, old, new, words = BROKEN[check]
     check = check.partition(",")[0]

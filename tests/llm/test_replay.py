@@ -2,6 +2,7 @@
 
 import itertools
 import shlex
+from datetime import UTC, datetime
 
 import pytest
 
@@ -99,7 +100,9 @@ def test_an_answer_comes_back_with_its_figures_of_then(keep):
         notes=("seed not supported",),
     )
     found = replay(keep((request(), live))).complete(request())
-    assert found == live.model_copy(update={"source": "recorded"})
+    assert found.answered is not None
+    assert datetime.fromisoformat(found.answered) <= datetime.now(UTC)
+    assert found == live.model_copy(update={"source": "recorded", "answered": found.answered})
 
 
 @pytest.mark.parametrize("source", ["authored", "manual"])

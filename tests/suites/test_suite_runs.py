@@ -40,6 +40,7 @@ def times(folder):
     return {log.parent.name: json.loads(log.read_text().splitlines()[0])["time"] for log in logs}
 
 
+@pytest.mark.slow
 def test_all_seven_methods_through_the_stub(cli, suite, stub, here):
     name = suite(methods=METHODS, seeds=1, samples=20, feedback=1)
     result = cli("bench", name, "--llm", stub(*[PROGRAM] * 9), "--jobs", 2, "--out", "out", "--json")
@@ -111,6 +112,7 @@ def test_a_kill_loses_the_episode_in_flight_and_no_other(background, cli, suite,
         assert table.execute("SELECT count(*) FROM episodes").fetchone() == (4,)
 
 
+@pytest.mark.slow
 def test_ctrl_c_leaves_a_folder_to_go_on_with(background, cli, suite, here, eventually):
     name = suite(seeds=4)
     with background("bench", name, "--out", "out") as process:
@@ -154,7 +156,7 @@ def test_what_changed_since_is_said(cli, suite, here):
 @pytest.mark.parametrize(
     ("args", "words"),
     [
-        (["papr"], "there is no suite 'papr'; did you mean 'paper'?"),
+        (["papr"], "there is no benchmark 'papr'; did you mean 'paper'?"),
         (["mine.yml"], "there is no suite mine.yml"),
         (["smoke", "--tasks", "drawing/stars"], "has no task 'drawing/stars'; did you mean 'drawing/star'?"),
         (["smoke", "--methods", "capp"], "there is no method 'capp'; did you mean 'cap'?"),

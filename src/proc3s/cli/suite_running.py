@@ -10,7 +10,7 @@ from typing import Any
 
 import typer
 
-from proc3s.cli.benching import made_folder
+from proc3s.cli.benching import SUITES, made_folder
 from proc3s.cli.suite_console import SuiteConsole
 from proc3s.config import choose_llm
 from proc3s.errors import BudgetSpent, Interrupted, LLMError, Pending, Proc3sError, UsageError, did_you_mean
@@ -94,8 +94,11 @@ def _spec(registry: Registry, wanted: SuiteWanted) -> SuiteSpec:
         if not path.is_file():
             raise UsageError(f"there is no suite {path}")
         spec = load_suite(path)
+    elif wanted.suite in (suites := registry.all(SuiteSpec)):
+        spec = suites[wanted.suite]
     else:
-        spec = registry.get(SuiteSpec, wanted.suite)
+        known = [*SUITES, *suites]
+        raise UsageError(f"there is no benchmark {wanted.suite!r}{did_you_mean(wanted.suite, known)}")
     tasks = tuple(t for t in spec.tasks if _named(t, wanted.tasks)) if wanted.tasks else spec.tasks
     for name in wanted.tasks:
         if not any(_named(task, (name,)) for task in spec.tasks):
