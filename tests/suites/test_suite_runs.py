@@ -136,6 +136,19 @@ def test_a_provider_that_fails_is_asked_again_later(cli, suite, here):
     assert len(Store(here / "out").episodes()) == 3
 
 
+def test_an_episode_that_ended_as_the_suite_was_killed_is_taken_as_it_is(cli, suite, here):
+    assert cli("bench", suite(seeds=1), "--out", "out").code == 0
+    (kept,) = Store(here / "out").episodes()
+    with sqlite3.connect(here / "out" / FILE) as table:
+        table.execute("DELETE FROM episodes")
+    began = times(here / "out")
+    assert cli("bench", suite(seeds=1), "--resume", "out").code == 0
+    (again,) = Store(here / "out").episodes()
+    assert times(here / "out") == began
+    same = ("cell", "samples", "goal_reached", "prompt_sha256", "source", "violations")
+    assert [getattr(again, name) for name in same] == [getattr(kept, name) for name in same]
+
+
 def test_what_changed_since_is_said(cli, suite, here):
     assert cli("bench", suite(seeds=1), "--out", "out").code == 0
     store = Store(here / "out")

@@ -67,6 +67,7 @@ class Runner:
         self._running: dict[Cell, subprocess.Popen[str]] = {}
         self._lock, self._stopped = threading.Lock(), False
         self._allotted: dict[Cell, float] = {}
+        self._broke = False
         self._spent = {run.name: spent_on(run) for run in (store.folder / RUNS).glob("*")}
 
     def outcomes(self, cells: Iterable[Cell]) -> Iterator[Outcome]:
@@ -86,14 +87,15 @@ class Runner:
                 if not under_way:
                     return
                 done, under_way = wait(under_way, return_when=FIRST_COMPLETED)
-                for future in done:
-                    yield self._settle(future.result())
+                # all are kept before anyone hears of the first
+                yield from [self._settle(future.result()) for future in done]
         finally:
             self.close()
             pool.shutdown()
 
     def _poor(self) -> bool:
-        return self._left() is not None and self._left() == 0.0
+        """Whether another episode could not ask anything."""
+        return self._broke or self._left() == 0.0
 
     def _left(self) -> float | None:
         """What may still be allotted; None without a limit."""
@@ -113,6 +115,7 @@ class Runner:
 
     def _settle(self, outcome: Outcome) -> Outcome:
         self._allotted.pop(outcome.cell, None)
+        self._broke |= isinstance(outcome, Unfinished) and outcome.stopped == "budget"
         self._spent[outcome.cell.folder] = spent_on(self._store.folder / RUNS / outcome.cell.folder)
         if isinstance(outcome, Episode):
             self._store.add(outcome)
@@ -121,6 +124,8 @@ class Runner:
     def _run(self, cell: Cell) -> Outcome:
         """One episode in a process of its own, begun anew or gone on with."""
         run = self._store.folder / RUNS / cell.folder
+        if (ended := _ended(run)) is not None:
+            return self._episode(cell, ended, run)
         going_on = _begun(run)
         if not going_on and run.exists():
             shutil.rmtree(run)  # a run that was killed before it asked anything
@@ -165,8 +170,11 @@ class Runner:
             return Unfinished(cell, stopped, _EXIT_ERROR.format(code=code, text=lines[-1]))
         if summary.stopped is not None:
             return Unfinished(cell, summary.stopped, summary.error or "")
-        run_dir = f"{RUNS}/{cell.folder}"
-        return episode_of(cell, summary, run, run_dir, self._order.judged.get(cell.task, False))
+        return self._episode(cell, summary, run)
+
+    def _episode(self, cell: Cell, summary: Summary, run: Path) -> Episode:
+        judged = self._order.judged.get(cell.task, False)
+        return episode_of(cell, summary, run, f"{RUNS}/{cell.folder}", judged)
 
     def close(self) -> None:
         """Stop what is under way: as by Ctrl-C first, so that it keeps what it has."""
@@ -181,6 +189,13 @@ class Runner:
                 process.wait(GRACE)
             except subprocess.TimeoutExpired:
                 process.kill()
+
+
+def _ended(run: Path) -> Summary | None:
+    """The summary of a run that came to its end, though nobody was left to keep it."""
+    found = events_of(run, "run_ended") if (run / LOG).is_file() else []
+    summary = Summary.model_validate(found[-1]["summary"]) if found else None
+    return summary if summary and summary.stopped is None else None
 
 
 def _begun(run: Path) -> bool:
