@@ -5,7 +5,7 @@ import numpy as np
 SPEED = 0.05
 """Arm and fingers are up to this share faster or slower."""
 OFF = 0.0005
-"""What is placed comes down up to this far off along x and along y, m."""
+"""What is placed comes down up to this far off along x and along y, m, unless a domain says otherwise."""
 
 
 class Disturbance:
@@ -14,13 +14,13 @@ class Disturbance:
     In a `corner` all errors are as large as they get; those of an even corner are opposite to the next one's.
     """
 
-    def __init__(self, rng: np.random.Generator, corner: int | None = None) -> None:
-        self._rng, self._corner = rng, corner
+    def __init__(self, rng: np.random.Generator, corner: int | None = None, off: float = OFF) -> None:
+        self._rng, self._corner, self._off = rng, corner, off
         self.speed = 1 + SPEED * self._error()
 
     def off(self, x: float, y: float, z: float) -> tuple[float, float, float]:
         """A point near another, metres, a new one at each call."""
-        return x + OFF * self._error(), y + OFF * self._error(), z
+        return x + self._off * self._error(), y + self._off * self._error(), z
 
     def _error(self) -> float:
         """Between -1 and 1."""

@@ -12,7 +12,7 @@ from proc3s import Plan, Pose, State, World
 from proc3s_tabletop import poses
 from proc3s_tabletop.bodies import Body
 from proc3s_tabletop.body_specs import bodies_of, body_of
-from proc3s_tabletop.disturbances import Disturbance
+from proc3s_tabletop.disturbances import OFF, Disturbance
 from proc3s_tabletop.reference import Reference
 from proc3s_tabletop.scene import Snapshot
 from proc3s_tabletop.screening import SCREENS
@@ -28,13 +28,19 @@ class TabletopWorld(World[Telemetry]):
     """Picks and places among the `objects` of a state: name -> something with `category` and `pose`.
 
     `bodies` says which body a category has (see `body_specs`); block and bowl where it is not given. `speed`
-    scales that of arm and fingers. The simulator starts with the first state, and again when a state has
-    other objects.
+    scales that of arm and fingers; disturbed, things come down up to `placement_error` metres off along x and
+    along y. The simulator starts with the first state, and again when a state has other objects.
     """
 
-    def __init__(self, domain: "Domain", bodies: Mapping[str, Any] | None = None, speed: float = 1.0) -> None:
+    def __init__(
+        self,
+        domain: "Domain",
+        bodies: Mapping[str, Any] | None = None,
+        speed: float = 1.0,
+        placement_error: float = OFF,
+    ) -> None:
         super().__init__(domain)
-        self.speed = speed
+        self.speed, self.placement_error = speed, placement_error
         self.categories = bodies_of(bodies)
         self._bodies: dict[str, Body] = {}
         self._table: Table | None = None
@@ -44,7 +50,7 @@ class TabletopWorld(World[Telemetry]):
     def disturb(self, rng: np.random.Generator | None, corner: int | None = None) -> None:
         """From the next reset on, arm and fingers are a little faster or slower, and what is placed comes
         down a little off."""
-        self._disturbance = Disturbance(rng, corner) if rng else None
+        self._disturbance = Disturbance(rng, corner, self.placement_error) if rng else None
         self._set_speed()
 
     def _set_speed(self) -> None:

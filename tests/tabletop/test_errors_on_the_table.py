@@ -59,6 +59,16 @@ def test_what_is_placed_ends_no_further_off_than_the_error(world):
         assert off.max() < OFF + 5e-4
 
 
+def test_a_domain_says_how_far_off_things_come_down():
+    world = ReferenceWorld(DOMAIN, placement_error=0.004)
+    try:
+        exact = _spot(outcome(world))
+        off = np.abs(_spot(outcome(world, np.random.default_rng(0), corner=0)) - exact)
+    finally:
+        world.close()
+    assert off == pytest.approx(0.004, abs=5e-4)
+
+
 def _spot(state):
     pose = state.objects["object_0"].pose
     return np.array([pose.x, pose.y])
