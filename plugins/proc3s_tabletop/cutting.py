@@ -37,12 +37,14 @@ class Part(NamedTuple):
     bad: float
 
 
-def parts_of(mesh: Any) -> list[FloatArray]:
-    """The points (n, 3) of every part of a trimesh mesh, m. The same mesh always gives the same parts."""
+def cut(mesh: Any) -> list[FloatArray] | None:
+    """The points (n, 3) of every part of a trimesh mesh, m; None where planes do not do."""
     points, areas = _points(mesh)
     rng = np.random.default_rng(0)
     parts = [_part(points, areas, np.arange(len(points)))]
-    while len(parts) < MOST and sum(part.bad for part in parts) > SHARE * areas.sum():
+    while sum(part.bad for part in parts) > SHARE * areas.sum():
+        if len(parts) == MOST:
+            return None
         worst = parts.pop(int(np.argmax([part.bad for part in parts])))
         halves = _halves(points, areas, worst, rng)
         if not halves:

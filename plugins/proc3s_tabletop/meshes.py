@@ -12,11 +12,14 @@ from proc3s import FloatArray
 from proc3s_tabletop import mesh_cache
 from proc3s_tabletop.bodies import MARGIN, Mesh, Surface
 
-FORMAT = 2
+FORMAT = 3
 """Of what is kept; another number makes everything anew."""
 
 SMALLEST, LARGEST = 0.002, 1.0
 """Edges of the box around a body, m: what is thinner or larger is no object for this table."""
+
+SLIVER = 0.001
+"""What is joined to nothing and has less than this share of the largest part's surface is no part of it."""
 
 Turn: TypeAlias = tuple[float, float, float]
 
@@ -82,6 +85,7 @@ def _read(path: Path, scale: float, turn: Turn) -> Any:
         raise ValueError(f"{path.name} cannot be read as a mesh: {error}") from error
     if not len(getattr(mesh, "faces", ())) or not np.isfinite(mesh.vertices).all():
         raise ValueError(f"{path.name} holds no triangles")
+    mesh = _without_slivers(mesh)
     mesh.apply_scale(scale)
     size = np.ptp(mesh.vertices, axis=0)
     if size.min() < SMALLEST or size.max() > LARGEST:
@@ -92,6 +96,14 @@ def _read(path: Path, scale: float, turn: Turn) -> Any:
     matrix[:3, :3] = rotation(*turn)
     mesh.apply_transform(matrix)
     return mesh
+
+
+def _without_slivers(mesh: Any) -> Any:
+    from trimesh.util import concatenate
+
+    parts = mesh.split(only_watertight=False)
+    least = SLIVER * max(part.area for part in parts)
+    return concatenate([part for part in parts if part.area >= least])
 
 
 def _middle(pieces: Sequence[FloatArray]) -> FloatArray:

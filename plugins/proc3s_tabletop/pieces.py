@@ -6,15 +6,23 @@ import numpy as np
 
 from proc3s import FloatArray
 from proc3s_tabletop.bodies import MARGIN
-from proc3s_tabletop.cutting import parts_of
+from proc3s_tabletop.coacd_parts import take_apart
+from proc3s_tabletop.cutting import cut
 
+FULL = 0.5
+"""A body that fills less of its hull is not cut by planes: there would be too many."""
 MOST = 64
 """Corners of a piece; Bullet slows down beyond."""
 
 
 def pieces_of(mesh: Any) -> list[FloatArray]:
-    """Corners (n, 3) of every convex piece of a trimesh mesh, m; each is to be surrounded by MARGIN."""
-    return [core(points) for points in parts_of(mesh)]
+    """Corners (n, 3) of every convex piece of a trimesh mesh, m; each is to be surrounded by MARGIN.
+
+    The same mesh always gives the same pieces: between a few planes, where those do, or else CoACD's.
+    """
+    sparse = mesh.is_watertight and abs(mesh.volume) < FULL * mesh.convex_hull.volume
+    parts = None if sparse else cut(mesh)
+    return [core(points) for points in parts or take_apart(mesh)]
 
 
 def core(points: FloatArray) -> FloatArray:
@@ -30,18 +38,19 @@ def core(points: FloatArray) -> FloatArray:
 
 def _few(corners: FloatArray) -> FloatArray:
     """The corners that matter most: begun with the outermost, each next is the one furthest outside."""
-    from scipy.spatial import ConvexHull
+    from scipy.spatial import ConvexHull, QhullError
 
     if len(corners) <= MOST:
         return corners
     first = np.unique([corners.argmin(axis=0), corners.argmax(axis=0)])
-    if len(first) < 4:
+    try:
+        hull = ConvexHull(corners[first], incremental=True)
+        while len(hull.points) < MOST:
+            outside = _outside(hull, corners)
+            hull.add_points(corners[[outside.argmax()]])
+        hull.close()
+    except QhullError:  # too few to begin with, or too thin to grow
         return corners[:: len(corners) // MOST + 1]
-    hull = ConvexHull(corners[first], incremental=True)
-    while len(hull.points) < MOST:
-        outside = _outside(hull, corners)
-        hull.add_points(corners[[outside.argmax()]])
-    hull.close()
     return np.array(hull.points[ConvexHull(hull.points).vertices])
 
 

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from proc3s import FloatArray
 from proc3s_tabletop.bodies import MARGIN
@@ -12,6 +13,8 @@ POINTS = 4000
 """Drawn on each surface."""
 EDGE = 0.004
 """Triangles are cut until no edge is longer, m: their middles then say which are near a point."""
+CLOSED = 0.0003
+"""No gap between pieces that is narrower shows: what has another piece so close before it is inside, m."""
 NEAR = 12
 """Triangles that are looked at for a point."""
 
@@ -30,10 +33,15 @@ def distance(vertices: FloatArray, faces: Any, pieces: Sequence[FloatArray]) -> 
 
 def cut(vertices: FloatArray, faces: Any) -> FloatArray:
     """Small triangles (n, 3, 3)."""
+    return _cut(vertices, faces)[0]
+
+
+def _cut(vertices: FloatArray, faces: Any) -> tuple[FloatArray, NDArray[np.intp]]:
+    """Small triangles (n, 3, 3), and of which face each is."""
     from trimesh.remesh import subdivide_to_size
 
-    small, of = subdivide_to_size(vertices, faces, EDGE)
-    return np.asarray(small[of])
+    small, corners, of = subdivide_to_size(vertices, faces, EDGE, return_index=True)
+    return np.asarray(small[corners]), np.asarray(of, np.intp)
 
 
 def _outside(pieces: Sequence[FloatArray]) -> FloatArray:
@@ -41,16 +49,16 @@ def _outside(pieces: Sequence[FloatArray]) -> FloatArray:
     from scipy.spatial import ConvexHull
 
     hulls = [ConvexHull(piece) for piece in pieces]
-    moved = [h.points[h.simplices] + MARGIN * h.equations[:, None, :3] for h in hulls]
-    corners = np.concatenate(moved).reshape(-1, 3)
-    triangles = cut(corners, np.arange(len(corners)).reshape(-1, 3))
-    middles = triangles.mean(axis=1)
-    inside = np.zeros(len(middles), bool)
+    normals = np.concatenate([hull.equations[:, None, :3] for hull in hulls])
+    moved = np.concatenate([hull.points[hull.simplices] for hull in hulls]) + MARGIN * normals
+    triangles, of = _cut(moved.reshape(-1, 3), np.arange(3 * len(moved)).reshape(-1, 3))
+    before = triangles.mean(axis=1) + CLOSED * normals[of, 0]
+    inside = np.zeros(len(before), bool)
     for hull in hulls:
         low, high = hull.points.min(axis=0) - MARGIN, hull.points.max(axis=0) + MARGIN
-        near = np.flatnonzero(~inside & (middles > low).all(axis=1) & (middles < high).all(axis=1))
-        deep = (middles[near] @ hull.equations[:, :3].T + hull.equations[:, 3]).max(axis=1)
-        inside[near] = deep < MARGIN - 1e-6
+        near = np.flatnonzero(~inside & (before > low).all(axis=1) & (before < high).all(axis=1))
+        deep = (before[near] @ hull.equations[:, :3].T + hull.equations[:, 3]).max(axis=1)
+        inside[near] = deep < MARGIN
     return triangles[~inside]
 
 
