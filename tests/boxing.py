@@ -1,8 +1,9 @@
-"""Programs of a domain in their box, and the trials of their samples."""
+"""Programs of a domain in their box, the trials of their samples, and what comes of a plan."""
 
 import numpy as np
 
 from proc3s.evaluation import Evaluator
+from proc3s.problem import carry_out, judge
 from proc3s.setup_code import setup_code
 from proc3s.sketch import BoxedSketch, Program
 from proc3s.state import source_text
@@ -32,3 +33,14 @@ def trials(sketch, problem, samples):
         yield from Evaluator(problem, sketch, executor).stream(u)
     finally:
         executor.close()
+
+
+def reaches_goal(problem, plan):
+    """Whether the world accepts a plan of a problem and its judge what comes of it."""
+    world = problem.domain.make_world()
+    try:
+        trial, final = carry_out(world, problem, plan, stop=False)
+    finally:
+        world.close()
+    score, _ = judge(problem, final, plan)
+    return not trial.violations and score.reached

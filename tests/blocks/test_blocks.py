@@ -8,9 +8,9 @@ import re
 import numpy as np
 import pytest
 
-from boxing import box, trials
+from boxing import box, reaches_goal, trials
 from proc3s.options import RunOptions, make_problem
-from proc3s.problem import carry_out, judge
+from proc3s.problem import judge
 from proc3s.prompts import example_turns
 from proc3s.registry import open_registry
 from proc3s.sketch import extract_program
@@ -134,16 +134,6 @@ def test_the_example_shows_plans_that_reach_its_goal(kind, answer):
     with box(BLOCKS, extract_program(text), answer, problem.initial) as sketch:
         plan = sketch.plans(np.zeros((1, 0)), first=0).plan(0)
     assert reaches_goal(problem, plan)
-
-
-def reaches_goal(problem, plan):
-    world = BLOCKS.make_world()
-    try:
-        trial, final = carry_out(world, problem, plan, stop=False)
-    finally:
-        world.close()
-    score, _ = judge(problem, final, plan)
-    return not trial.violations and score.reached
 
 
 def test_a_pyramid_is_built_from_end_to_end(run):
