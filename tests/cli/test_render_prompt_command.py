@@ -176,6 +176,7 @@ def test_approving_and_checking(cli, here):
     assert (result.code, result.stdout) == (0, "")
 
 
+@pytest.mark.slow
 def test_a_rendering_that_differs_is_shown(cli, here):
     cli("render-prompt", "--check", "approved", "--update")
     path = here / "approved/drawing/star.cap.md"
@@ -191,6 +192,7 @@ def test_a_rendering_that_differs_is_shown(cli, here):
     assert path.read_text() == before
 
 
+@pytest.mark.slow
 def test_an_approved_file_that_is_missing_or_too_much(cli, here):
     cli("render-prompt", "--check", "approved", "--update")
     (here / "approved/drawing/star.cap.md").rename(here / "approved/drawing/planet.cap.md")
@@ -201,6 +203,7 @@ def test_an_approved_file_that_is_missing_or_too_much(cli, here):
     assert not (here / "approved/drawing/planet.cap.md").exists()
 
 
+@pytest.mark.slow
 def test_approving_leaves_other_files_alone(cli, here):
     (here / "approved/notes").mkdir(parents=True)
     for name in ("README.md", "notes/why.md", "drawing.md"):

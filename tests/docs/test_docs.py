@@ -69,8 +69,21 @@ def check_console(body: str, expected_exit: int, folder: Path) -> None:
         assert re.fullmatch(as_pattern(expected), output), f"{command}\nprinted\n{output}"
 
 
-SLOW = ("llm", "switching-llms", "reading-a-failure", "table-top", "table-top-task", "own-solver")
-"""Pages whose examples import litellm, simulate an arm again and again, or run tests."""
+SLOW = (
+    "benchmark",
+    "llm",
+    "own-domain",
+    "own-instruction",
+    "own-solver",
+    "reading-a-failure",
+    "review-prompts",
+    "screens",
+    "steer-the-search",
+    "switching-llms",
+    "table-top",
+    "table-top-task",
+)
+"""Pages whose examples start the program many times, import litellm, simulate an arm, or run tests."""
 
 
 def _marked(page: Path) -> Any:

@@ -92,7 +92,7 @@ def never(state, batch):
 
 def _marked(case):
     """A check of everything takes seconds, twice; a few show that it works."""
-    return pytest.param(case, marks=[] if case in ("targets", "judges", "screens") else [pytest.mark.slow])
+    return pytest.param(case, marks=[] if case in ("targets", "judges") else [pytest.mark.slow])
 
 
 @pytest.mark.parametrize("check", map(_marked, BROKEN))

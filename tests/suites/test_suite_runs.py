@@ -59,6 +59,7 @@ def test_all_seven_methods_through_the_stub(cli, suite, stub, here):
     assert json.loads((here / "out/results.json").read_text())["episodes"] == result.json["episodes"]
 
 
+@pytest.mark.slow
 def test_pending_answers_are_written_by_hand_and_the_suite_goes_on(cli, suite, answers_of_star, here):
     name = suite(seeds=2, presets=["best", "paper"])
     args = ("bench", name, "--llm", "manual:desk", "-L", "wait=0", "--jobs", 2)
@@ -86,6 +87,7 @@ def test_pending_answers_are_written_by_hand_and_the_suite_goes_on(cli, suite, a
     assert Store(here / "out").episodes() == kept
 
 
+@pytest.mark.slow
 def test_a_kill_loses_the_episode_in_flight_and_no_other(background, cli, suite, here, eventually):
     name = suite(seeds=4)
 
