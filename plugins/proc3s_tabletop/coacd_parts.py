@@ -5,13 +5,12 @@ from typing import Any
 import numpy as np
 
 from proc3s import FloatArray
+from proc3s_tabletop.extents import FLAT, thickness
 
 TOLERANCE, SHARE = 0.0022, 0.02
 """How hollow a piece may be, m; or, if more, which share of the body's longest edge."""
 OVERLAP = 0.0005
 """Pieces reach so far into their neighbours, m: between the margins around them a groove of 0.13 mm stays."""
-FLAT = 0.0001
-"""A piece that is thinner than this is none, m."""
 
 
 def take_apart(mesh: Any) -> list[FloatArray]:
@@ -32,11 +31,4 @@ def take_apart(mesh: Any) -> list[FloatArray]:
         mcts_max_depth=1,
         resolution=300,
     )
-    found = [np.asarray(points) for points, _ in parts]
-    return [points for points in found if _thickness(points) > FLAT]
-
-
-def _thickness(points: FloatArray) -> float:
-    """How far points (n, 3) reach along the way in which they differ least, m."""
-    *_, ways = np.linalg.svd(points - points.mean(axis=0), full_matrices=False)
-    return float(np.ptp(points @ ways[-1]))
+    return [points for points, _ in parts if thickness(points) > FLAT]

@@ -10,6 +10,9 @@ from proc3s import FloatArray
 from proc3s.transforms import matrices
 from proc3s_tabletop.bodies import Body
 
+FLAT = 0.0001
+"""What is thinner than this is no solid, m."""
+
 
 @dataclass(frozen=True)
 class Extent:
@@ -32,6 +35,12 @@ def extent(body: Body, pose: Any) -> Extent:
     corners = body.shape.corners() @ turn.T + [pose.x, pose.y, pose.z]
     lean = math.acos(float(np.clip(turn[2, 2], -1.0, 1.0)))
     return Extent(float(corners[:, 2].min()), float(corners[:, 2].max()), _hull(corners[:, :2]), lean)
+
+
+def thickness(points: FloatArray) -> float:
+    """How far points (n, 3) reach along the way in which they differ least, m."""
+    *_, ways = np.linalg.svd(points - points.mean(axis=0), full_matrices=False)
+    return float(np.ptp(points @ ways[-1]))
 
 
 def rotation(roll: float, pitch: float, yaw: float) -> FloatArray:

@@ -77,7 +77,7 @@ def _made(path: Path, scale: float, turn: Turn) -> mesh_cache.Arrays:
 def _read(path: Path, scale: float, turn: Turn) -> Any:
     import trimesh
 
-    from proc3s_tabletop.extents import rotation
+    from proc3s_tabletop.extents import FLAT, rotation, thickness
 
     try:
         mesh = trimesh.load_mesh(path)
@@ -92,6 +92,8 @@ def _read(path: Path, scale: float, turn: Turn) -> Any:
         raise ValueError(
             f"{path.name} is {' x '.join(f'{edge:.4g}' for edge in size)} m: is its scale right?"
         )
+    if thickness(mesh.vertices) < FLAT:
+        raise ValueError(f"{path.name} is flat")
     matrix = np.eye(4)
     matrix[:3, :3] = rotation(*turn)
     mesh.apply_transform(matrix)

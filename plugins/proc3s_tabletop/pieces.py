@@ -10,7 +10,7 @@ from proc3s_tabletop.coacd_parts import take_apart
 from proc3s_tabletop.cutting import cut
 
 FULL = 0.5
-"""A body that fills less of its hull is not cut by planes: there would be too many."""
+"""A body that fills less of its hull needs too many planes; for others they are quicker than CoACD."""
 MOST = 64
 """Corners of a piece; Bullet slows down beyond."""
 

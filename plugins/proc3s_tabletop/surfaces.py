@@ -14,7 +14,7 @@ POINTS = 4000
 EDGE = 0.004
 """Triangles are cut until no edge is longer, m: their middles then say which are near a point."""
 CLOSED = 0.0003
-"""No gap between pieces that is narrower shows: what has another piece so close before it is inside, m."""
+"""A wall with another piece this close in front of it is inside, m: pieces that touch leave no gap."""
 NEAR = 12
 """Triangles that are looked at for a point."""
 
@@ -25,18 +25,13 @@ def distance(vertices: FloatArray, faces: Any, pieces: Sequence[FloatArray]) -> 
     Points are drawn on the mesh, and on the outside of the union of the pieces.
     """
     rng = np.random.default_rng(0)
-    mesh, made = cut(vertices, faces), _outside(pieces)
+    (mesh, _), made = _small(vertices, faces), _outside(pieces)
     there = _nearest(_drawn(rng, mesh), made)
     back = _nearest(_drawn(rng, made), mesh)
     return float(max(np.percentile(there, 95), np.percentile(back, 95)))
 
 
-def cut(vertices: FloatArray, faces: Any) -> FloatArray:
-    """Small triangles (n, 3, 3)."""
-    return _cut(vertices, faces)[0]
-
-
-def _cut(vertices: FloatArray, faces: Any) -> tuple[FloatArray, NDArray[np.intp]]:
+def _small(vertices: FloatArray, faces: Any) -> tuple[FloatArray, NDArray[np.intp]]:
     """Small triangles (n, 3, 3), and of which face each is."""
     from trimesh.remesh import subdivide_to_size
 
@@ -51,7 +46,7 @@ def _outside(pieces: Sequence[FloatArray]) -> FloatArray:
     hulls = [ConvexHull(piece) for piece in pieces]
     normals = np.concatenate([hull.equations[:, None, :3] for hull in hulls])
     moved = np.concatenate([hull.points[hull.simplices] for hull in hulls]) + MARGIN * normals
-    triangles, of = _cut(moved.reshape(-1, 3), np.arange(3 * len(moved)).reshape(-1, 3))
+    triangles, of = _small(moved.reshape(-1, 3), np.arange(3 * len(moved)).reshape(-1, 3))
     before = triangles.mean(axis=1) + CLOSED * normals[of, 0]
     inside = np.zeros(len(before), bool)
     for hull in hulls:

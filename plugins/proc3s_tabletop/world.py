@@ -10,7 +10,7 @@ import numpy as np
 
 from proc3s import Plan, Pose, State, World
 from proc3s_tabletop import poses
-from proc3s_tabletop.bodies import Body
+from proc3s_tabletop.bodies import Body, Mesh
 from proc3s_tabletop.body_specs import bodies_of, body_of
 from proc3s_tabletop.disturbances import OFF, Disturbance
 from proc3s_tabletop.reference import Reference
@@ -115,6 +115,14 @@ class TabletopWorld(World[Telemetry]):
 
         colors = {name: getattr(thing, "color", "") for name, thing in self.state.objects.items()}
         draw(self._bodies, colors, self._film, path)
+
+    def facts(self) -> list[str]:
+        """How far convex pieces are from their mesh: the 95th percentile of the surfaces' distance."""
+        meshes = {name: body.shape for name, body in self.categories.items() if isinstance(body.shape, Mesh)}
+        return [
+            f"{name}: {len(mesh.pieces)} convex pieces, {1e3 * mesh.error:.1f} mm off the mesh"
+            for name, mesh in meshes.items()
+        ]
 
     def close(self) -> None:
         """Give up the simulator."""

@@ -1,5 +1,6 @@
 """Worlds: the transition models that accept or refuse plans."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
@@ -106,6 +107,10 @@ class World(Generic[T]):
 
     def render(self, plan: Plan, path: Path) -> None:
         """Draw the world after a plan as a PNG file; a world without a picture writes none."""
+
+    def facts(self) -> Sequence[str]:
+        """How true its models are, as measured, a line each: `proc3s check` prints them."""
+        return ()
 
     def close(self) -> None:
         """Give up what the world holds."""

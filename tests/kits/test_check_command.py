@@ -36,6 +36,7 @@ def test_a_sound_domain_is_fine_in_every_way(push, cli):
         "domain": "push",
         "errors": 0,
         "findings": [],
+        "facts": [],
     }
 
 

@@ -123,7 +123,10 @@ def test_two_processes_prepare_a_mesh_at_once(fresh, cup):
 def test_files_that_are_no_body(fresh, tmp_path, cup):
     (tmp_path / "broken.stl").write_text("solid nothing")
     (tmp_path / "words.obj").write_text("some words\n")
-    for name, words in [("broken.stl", "broken"), ("words.obj", "words"), ("missing.stl", "no file")]:
+    corners = [[0, 0, 0], [0.1, 0, 0], [0, 0.1, 0.1], [0.1, 0.1, 0.1]]
+    trimesh.Trimesh(corners, [[0, 1, 2], [1, 3, 2]]).export(tmp_path / "sheet.stl")
+    bad = {"broken.stl": "broken", "words.obj": "words", "missing.stl": "no file", "sheet.stl": "is flat"}
+    for name, words in bad.items():
         with pytest.raises(SpecError, match=words):
             mesh(tmp_path / name)
     with pytest.raises(SpecError, match="is its scale right"):

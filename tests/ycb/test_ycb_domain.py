@@ -3,6 +3,7 @@
 import dataclasses
 import itertools
 import json
+import re
 
 import numpy as np
 import pytest
@@ -124,6 +125,16 @@ def test_the_example_shows_plans_that_reach_its_goal(kind, answer):
     with box(YCB, extract_program(text), answer, problem.initial) as sketch:
         plan = sketch.plans(np.zeros((1, 0)), first=0).plan(0)
     assert reaches_goal(problem, plan)
+
+
+@pytest.mark.slow
+def test_a_check_finds_nothing_wrong_and_says_how_true_the_bodies_are(cli):
+    report = cli("check", "ycb", "--json", "--seconds", 5).json
+    assert (report["errors"], report["findings"]) == (0, [])
+    told = [re.fullmatch(r"(\w+): \d+ convex pieces, (\d\.\d) mm off the mesh", f) for f in report["facts"]]
+    off = {found[1]: float(found[2]) for found in told}
+    assert off.keys() == YCB.spec.world.args["bodies"].keys()
+    assert max(off.values()) < 2.0
 
 
 def test_two_objects_are_stacked_from_end_to_end(run):

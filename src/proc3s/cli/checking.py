@@ -29,12 +29,25 @@ def examine_domain(wanted: str, seconds: float, plugins: Sequence[Path], as_json
         found += findings
         _print(out, check, findings, took)
     errors = sum(finding.level == "error" for finding in found)
+    facts = [] if errors else _facts(subject)
     if as_json:
-        document = {"domain": name, "errors": errors, "findings": [f.model_dump() for f in found]}
+        told = [finding.model_dump() for finding in found]
+        document = {"domain": name, "errors": errors, "findings": told, "facts": facts}
         typer.echo(json.dumps(document, indent=2, ensure_ascii=False))
     else:
+        for fact in facts:
+            out.print(f"fact   {escape(fact)}")
         out.print(f"{name}: {errors} errors, {len(found) - errors} notes")
     return 2 if errors else 0
+
+
+def _facts(subject: Subject) -> list[str]:
+    """What the world says of its models."""
+    world = subject.domain.make_world()
+    try:
+        return [*world.facts()]
+    finally:
+        world.close()
 
 
 def _print(out: Console, check: Check, findings: Sequence[CheckFinding], took: float) -> None:
