@@ -38,7 +38,7 @@ def files() -> dict[str, str | bytes]:
 
 
 def _proc3s(folder: Path, *args: str) -> None:
-    command = [sys.executable, "-m", "proc3s", *args]
+    command = [sys.executable, "-P", "-m", "proc3s", *args]
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
     if done.returncode:
         raise RuntimeError(f"proc3s {' '.join(args)} ended with {done.returncode}:\n{done.stderr}")

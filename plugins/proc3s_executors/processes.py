@@ -24,6 +24,8 @@ _AHEAD = 2
 """Chunks under way for each worker."""
 _MOST_RESTARTS = 6
 """So often in a row may workers die without a result in between."""
+_SAFE_PATH = "PYTHONSAFEPATH"
+"""Makes Python begin without the working directory on its path; then a worker takes its parent's path."""
 
 
 @dataclass(frozen=True)
@@ -105,7 +107,7 @@ class Processes:
 
     def _submit(self, key: bytes, chunk: Sequence[Plan]) -> "Future[Answer]":
         try:
-            with without_secrets():  # this may start processes
+            with _for_children():  # this may start processes
                 return self._workers().submit(_evaluate, key, chunk)
         except (BrokenProcessPool, OSError) as error:  # OSError: the pool is about to notice a dead worker
             broken: Future[Answer] = Future()
@@ -142,6 +144,21 @@ class Processes:
         if self._pool is not None:
             self._pool.shutdown(cancel_futures=True)
             self._pool = None
+
+
+@contextlib.contextmanager
+def _for_children() -> Iterator[None]:
+    """While workers are started in here they get no key, and import nothing from the working directory."""
+    before = os.environ.get(_SAFE_PATH)
+    with without_secrets():
+        os.environ[_SAFE_PATH] = "1"
+        try:
+            yield
+        finally:
+            if before is None:
+                del os.environ[_SAFE_PATH]
+            else:
+                os.environ[_SAFE_PATH] = before
 
 
 def _begin(files: tuple[Path, ...]) -> None:

@@ -3,8 +3,6 @@
 import importlib
 from typing import TYPE_CHECKING, Any
 
-from proc3s.hookspecs import hookimpl
-
 if TYPE_CHECKING:
     from proc3s.constraints import Margin as Margin
     from proc3s.constraints import Violation as Violation
@@ -16,6 +14,7 @@ if TYPE_CHECKING:
     from proc3s.errors import UsageError as UsageError
     from proc3s.executors import Executor as Executor
     from proc3s.findings import Finding as Finding
+    from proc3s.hookspecs import hookimpl as hookimpl
     from proc3s.llms import LLM as LLM
     from proc3s.llms import Candidate as Candidate
     from proc3s.llms import Completion as Completion
@@ -68,6 +67,7 @@ _WHERE = {
     "errors": ("LLMError", "Pending", "SpecError", "UsageError"),
     "executors": ("Executor",),
     "findings": ("Finding",),
+    "hookspecs": ("hookimpl",),
     "llms": (
         "LLM",
         "Candidate",
@@ -106,7 +106,7 @@ _WHERE = {
 }
 _MODULES = {name: module for module, names in _WHERE.items() for name in names}
 
-__all__ = ["hookimpl", *_MODULES]
+__all__ = [*_MODULES]
 
 
 def __getattr__(name: str) -> Any:

@@ -186,9 +186,17 @@ def import_loose_file(path: Path) -> ModuleType:
     # A loose file names its own functions as "<file stem>:name", so it is importable by its stem.
     module = importlib.util.module_from_spec(spec)
     sys.modules[name] = module
-    other = sys.modules.get(path.stem)
-    if (other is None and importlib.util.find_spec(path.stem) is None) or hasattr(other, _LOOSE):
+    if _free(path.stem):
         sys.modules[path.stem] = module
     setattr(module, _LOOSE, True)
     spec.loader.exec_module(module)
     return module
+
+
+def _free(name: str) -> bool:
+    """Whether a loose file may be imported by this name: no module has it, but maybe another loose file."""
+    other = sys.modules.get(name)
+    if other is not None:
+        return hasattr(other, _LOOSE)
+    found = importlib.util.find_spec(name)
+    return found is None or found.origin is None  # a folder without code, such as that of `shelf/shelf.py`

@@ -129,7 +129,9 @@ class Runner:
         going_on = _begun(run)
         if not going_on and run.exists():
             shutil.rmtree(run)  # a run that was killed before it asked anything
-        command = [sys.executable, "-m", "proc3s.suites.child", "run", *self._command(cell, run, going_on)]
+        # -P: what lies in the working directory must not hide a package
+        command = [sys.executable, "-P", "-m", "proc3s.suites.child", "run"]
+        command += self._command(cell, run, going_on)
         with self._lock:
             if self._stopped:
                 return Unfinished(cell, "interrupted", "interrupted before it began")
