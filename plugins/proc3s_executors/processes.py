@@ -169,7 +169,7 @@ def _begin(files: tuple[Path, ...]) -> None:
     threading.Thread(target=_end_with_parent, daemon=True).start()
     for path in files:
         # The parent lives with a plugin that does not load; what it brings is missed by name when it is used.
-        with contextlib.suppress(Exception, SystemExit):
+        with contextlib.suppress(Exception):
             import_loose_file(path)
 
 

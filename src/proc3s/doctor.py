@@ -13,7 +13,7 @@ from packaging.requirements import Requirement
 
 from proc3s.backends import Chosen, find_llm
 from proc3s.config import ChosenLLM
-from proc3s.errors import Proc3sError
+from proc3s.errors import Proc3sError, blame
 from proc3s.findings import Finding
 from proc3s.registry import KINDS, Registry
 from proc3s.sketch.box import BoxedSketch, Program
@@ -120,5 +120,10 @@ def _llms(registry: Registry, llm: ChosenLLM) -> Iterator[Finding]:
         if backend.check is None:
             continue
         mine = chosen if chosen and chosen.spec.name == backend.name else None
-        check = Target(target=backend.check).load()
-        yield from check(mine.model, mine.own) if mine else check(None, None)
+        try:
+            check = Target(target=backend.check).load()
+            with blame(f"llm {backend.name}"):
+                found = list(check(mine.model, mine.own) if mine else check(None, None))
+        except Proc3sError as error:
+            found = [Finding(level="error", subject=f"llm {backend.name}", text=str(error))]
+        yield from found

@@ -72,7 +72,9 @@ class Domain:
     def make_world(self, target: Target | None = None) -> "World[Any]":
         """A fresh world; `target` names another one than the reference world."""
         target = target or self.spec.world
-        world: World[Any] = target.load()(self, **target.args)
+        make = target.load()
+        with blame(f"world {target.target}"):
+            world: World[Any] = make(self, **target.args)
         return world
 
     def scene(self, task: TaskSpec, seed: int, options: dict[str, Any] | None = None) -> State:

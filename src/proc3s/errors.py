@@ -103,16 +103,35 @@ class SpecError(Proc3sError):
 
 
 @contextmanager
-def blame(field: str) -> Iterator[None]:
-    """Turn whatever a plugin's function raises into a SpecError that names the function and its line."""
+def blame(field: str, *passing: type[BaseException]) -> Iterator[None]:
+    """Turn whatever code of a plugin raises into a SpecError that names the part and the line.
+
+    That is also what no `except Exception` sees, SystemExit say: no plugin ends the process. Errors for
+    people pass, Ctrl-C does, and those of `passing`, which the caller knows.
+    """
+    known: tuple[type[BaseException], ...] = (Proc3sError, KeyboardInterrupt, *passing)
     try:
         yield
-    except Proc3sError:
+    except known:
         raise
-    except Exception as error:
-        frame = traceback.extract_tb(error.__traceback__)[-1]
-        text = f"raised {type(error).__name__}: {error}"
-        raise SpecError([Issue(f"{frame.filename}:{frame.lineno}", field, text)]) from error
+    except BaseException as error:
+        raise SpecError([Issue(_raised_at(error), field, f"raised {worded(error)}")]) from error
+
+
+def worded(error: BaseException) -> str:
+    """An error without its traceback: as it is if it is for people, else after its type."""
+    if isinstance(error, Proc3sError):
+        return str(error)
+    return f"{type(error).__name__}: {error}".removesuffix(": ")
+
+
+def _raised_at(error: BaseException) -> str:
+    """`file:line` of the mistake: of the innermost frame that is a file."""
+    if isinstance(error, SyntaxError) and error.filename:
+        return f"{error.filename}:{error.lineno}"
+    frames = traceback.extract_tb(error.__traceback__)
+    files = [frame for frame in frames if not frame.filename.startswith("<")] or frames
+    return f"{files[-1].filename}:{files[-1].lineno}"
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:

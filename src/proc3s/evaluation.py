@@ -142,7 +142,7 @@ class Evaluator:
     def _rolled_out(self, key: bytes, verdicts: Iterator[Trial], row: FloatArray) -> Trial:
         """The trial of a sample with this plan; `verdicts` are those of the plans not known yet."""
         if key not in self._known:
-            with self.clock("world"):
+            with self.clock("world"), blame("executor"):
                 self._known[key] = trial = next(verdicts)
             self.evaluations += trial.screen is None
             self.rehearsals += trial.rehearsals

@@ -12,13 +12,14 @@ from pydantic import BaseModel, Field, TypeAdapter, ValidationError
 from proc3s import specs
 from proc3s.budget import Budget
 from proc3s.domain import Domain
-from proc3s.errors import UsageError, did_you_mean
+from proc3s.errors import UsageError, blame, did_you_mean
 from proc3s.executors import Executor
 from proc3s.grounding import Setup
 from proc3s.problem import Problem
 from proc3s.prompts import Prompter
 from proc3s.registry import Registry
 from proc3s.samplers import Space
+from proc3s.sketch.errors import SketchError
 from proc3s.sketch.limits import Limits
 from proc3s.solving import Solver
 from proc3s.specfile import scalar, validate
@@ -132,13 +133,16 @@ def make_setup(registry: Registry, options: RunOptions, problem: Problem) -> Set
     solver = registry.get(specs.SolverSpec, name)
     solver_options = part_options(solver, options.solver_options)
     make = solver.load()
-    executor: Executor = registry.get(specs.ExecutorSpec, options.executor).load()(jobs=options.jobs)
+    make_executor = registry.get(specs.ExecutorSpec, options.executor).load()
+    with blame(f"executor {options.executor}"):
+        executor: Executor = make_executor(jobs=options.jobs)
     problem.domain.require(problem.task)
     if problem.robust and problem.domain.spec.world.load().disturb is World.disturb:
         raise UsageError(f"--robust: nothing disturbs the world of {problem.domain.spec.name}")
 
     def make_solver(space: Space, budget: int, rng: np.random.Generator) -> Solver:
-        made: Solver = make(space, budget, rng, solver_options)
+        with blame(f"solver {name}", SketchError):
+            made: Solver = make(space, budget, rng, solver_options)
         return made
 
     return Setup(
@@ -188,4 +192,5 @@ def part_options(spec: specs.SolverSpec | specs.LLMSpec, given: Mapping[str, str
         if given:
             raise UsageError(f"{where} takes no option {next(iter(given))!r}")
         return None
-    return validate(model, given, where)
+    with blame(where):  # validators of its own may raise anything
+        return validate(model, given, where)

@@ -13,7 +13,7 @@ from typing import Any
 import pluggy
 
 from proc3s import hookspecs
-from proc3s.errors import Proc3sError, SpecError, UsageError, did_you_mean
+from proc3s.errors import Proc3sError, SpecError, UsageError, blame, did_you_mean
 from proc3s.specfile import load_domain
 from proc3s.specs import DomainSpec, Spec
 
@@ -66,20 +66,21 @@ class PluginManager:
             return
         self.statuses[status.name] = status
         try:
-            plugin = load()
-            self._refuse_misspelled(plugin)
-            self._manager.register(plugin, name=status.name)
-        except (Exception, SystemExit) as error:
+            with blame(f"plugin {status.name}"):
+                plugin = load()
+                self._refuse_misspelled(plugin)
+                self._manager.register(plugin, name=status.name)
+        except Proc3sError as error:
             self._refuse(status, error)
 
-    def _fail(self, status: PluginStatus, error: BaseException | str) -> None:
+    def _fail(self, status: PluginStatus, error: Proc3sError | str) -> None:
         """Record a failure; the plugin is not called again."""
-        text = str(error) if isinstance(error, Proc3sError | str) else f"{type(error).__name__}: {error}"
+        text = str(error)
         self.statuses[status.name] = PluginStatus(status.name, status.source, status.version, text)
         if self._manager.has_plugin(status.name):
             self._manager.unregister(name=status.name)
 
-    def _refuse(self, status: PluginStatus, error: BaseException | str) -> None:
+    def _refuse(self, status: PluginStatus, error: Proc3sError | str) -> None:
         """`_fail`, and a failure in a file that the user named is the user's to see at once."""
         self._fail(status, error)
         if status.source in self._explicit:
@@ -112,8 +113,9 @@ class PluginManager:
         if register is None or not hasattr(register, "proc3s_impl"):
             return []
         try:
-            register(lambda spec: found.append((name, _checked(spec, hook))))
-        except Exception as error:
+            with blame(f"plugin {name}"):
+                register(lambda spec: found.append((name, _checked(spec, hook))))
+        except Proc3sError as error:
             self._refuse(self.statuses[name], error)
             return []
         return found
@@ -139,9 +141,10 @@ class PluginManager:
         """What each plugin answers; one that raises is recorded and never called again."""
         for implementation in reversed(getattr(self._manager.hook, hook).get_hookimpls()):
             try:
-                taken = {name: arguments[name] for name in implementation.argnames}
-                answer = implementation.function(**taken)
-            except Exception as error:
+                with blame(f"plugin {implementation.plugin_name}"):
+                    taken = {name: arguments[name] for name in implementation.argnames}
+                    answer = implementation.function(**taken)
+            except Proc3sError as error:
                 self._fail(self.statuses[implementation.plugin_name], error)
             else:
                 yield answer
@@ -189,7 +192,8 @@ def import_loose_file(path: Path) -> ModuleType:
     if _free(path.stem):
         sys.modules[path.stem] = module
     setattr(module, _LOOSE, True)
-    spec.loader.exec_module(module)
+    with blame(f"plugin {path.stem}"):
+        spec.loader.exec_module(module)
     return module
 
 

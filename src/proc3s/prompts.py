@@ -10,7 +10,7 @@ from typing import Any
 import jinja2
 from jinja2.sandbox import ImmutableSandboxedEnvironment
 
-from proc3s.errors import Issue, SpecError, UsageError, did_you_mean
+from proc3s.errors import Issue, SpecError, UsageError, blame, did_you_mean
 from proc3s.feedback import ConstraintReport, Diagnosis, Failure
 from proc3s.llms import Message, Role
 from proc3s.problem import Problem
@@ -83,14 +83,16 @@ class Prompter:
     def _render(self, name: str, problem: Problem, **variables: Any) -> str:
         try:
             template = _environment(self.folders).get_template(name)
-            return template.render(**self.context, **self._shared(problem), **variables)
+            with blame("template", Exception):  # a function of `prompt_context` may end the process
+                return template.render(**self.context, **self._shared(problem), **variables)
         except jinja2.TemplateNotFound as error:
             raise UsageError(self._not_found(str(error.name or name))) from error
         except jinja2.TemplateSyntaxError as error:
             where = f"{error.filename or name}:{error.lineno}"
             raise SpecError([Issue(where, "", str(error.message))]) from error
         except Exception as error:  # a template may raise whatever its expressions raise
-            raise SpecError([Issue(_template_line(error, name), "", str(error))]) from error
+            raised = error.__cause__ if isinstance(error, SpecError) else error
+            raise SpecError([Issue(_template_line(raised or error, name), "", str(error))]) from error
 
     def _shared(self, problem: Problem) -> dict[str, Any]:
         """Variables of every template: plain data, since templates come from anyone."""
@@ -123,7 +125,7 @@ def _environment(folders: Sequence[Path]) -> ImmutableSandboxedEnvironment:
     return environment
 
 
-def _template_line(error: Exception, name: str) -> str:
+def _template_line(error: BaseException, name: str) -> str:
     """`file:line` of the innermost template frame of an error raised while rendering."""
     where, traceback = name, error.__traceback__
     while traceback is not None:

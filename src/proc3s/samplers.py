@@ -7,6 +7,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from proc3s.errors import blame
 from proc3s.hookspecs import hookimpl
 from proc3s.specs import SamplerSpec
 from proc3s.state import FloatArray
@@ -60,6 +61,12 @@ class DiscreteSampler:
         return np.minimum(np.floor(u * len(self.values)), len(self.values) - 1)
 
 
+def decoded(sampler: Sampler, u: FloatArray) -> FloatArray:
+    """`sampler.decode(u)`. Raises SpecError that names the sampler if it raises anything."""
+    with blame(f"sampler {type(sampler).__name__}"):
+        return sampler.decode(u)
+
+
 @dataclass(frozen=True)
 class Space:
     """The open parameters of a program, in order: each with its sampler.
@@ -84,7 +91,7 @@ class Space:
         """Points u of shape (n, dim) to wire rows of shape (n, columns)."""
         columns, at = [], 0
         for sampler in self.samplers.values():
-            columns.append(sampler.decode(u[:, at : at + sampler.dim]))
+            columns.append(decoded(sampler, u[:, at : at + sampler.dim]))
             at += sampler.dim
         return np.hstack(columns) if columns else np.empty((len(u), 0))
 

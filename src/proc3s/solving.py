@@ -6,7 +6,7 @@ from typing import Protocol
 
 import numpy as np
 
-from proc3s.errors import Interrupted, Proc3sError
+from proc3s.errors import Interrupted, Proc3sError, blame
 from proc3s.evaluation import Evaluator
 from proc3s.problem import Trial
 from proc3s.samplers import Space
@@ -74,11 +74,14 @@ class Search:
                 self._step(end - len(self.trials))
         except SketchError as error:  # a solver may run the program too, to see which parameters matter
             self.halted = error
+        except Proc3sError as error:
+            self.broken_off = error
         except KeyboardInterrupt:  # wherever it strikes, what was sampled counts
             self.broken_off = Interrupted("interrupted")
 
     def _step(self, limit: int) -> None:
-        u = np.empty((1, 0)) if self.space.dim == 0 else self._solver.ask(limit)
+        with blame("solver", SketchError):
+            u = np.empty((1, 0)) if self.space.dim == 0 else self._solver.ask(limit)
         self._exhausted = self.space.dim == 0 or not len(u)
         begun = len(self.trials)
         if len(u):
@@ -86,7 +89,8 @@ class Search:
         if batch := self.trials[begun:]:
             self._report(batch)
         if not self.over:
-            self._solver.tell(batch)
+            with blame("solver", SketchError):
+                self._solver.tell(batch)
 
     def _evaluate(self, u: FloatArray) -> None:
         """Trials up to the first accepted one, and what stopped them if something did."""

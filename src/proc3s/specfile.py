@@ -9,7 +9,7 @@ from typing import Any, TypeAlias, TypeVar, get_args
 import yaml
 from pydantic import BaseModel, ValidationError
 
-from proc3s.errors import Issue, SpecError, did_you_mean
+from proc3s.errors import Issue, SpecError, blame, did_you_mean
 from proc3s.specs import DomainSpec, Spec
 from proc3s.state import SCALARS, split_type
 
@@ -213,8 +213,9 @@ def _mapping_of(data: Any, key: str) -> dict[str, Any]:
 
 def _importable(module: str) -> bool:
     try:
-        return importlib.util.find_spec(module) is not None
-    except Exception:  # importing the package around it may raise anything
+        with blame("target"):  # importing the package around it may raise anything
+            return importlib.util.find_spec(module) is not None
+    except SpecError:
         return False
 
 

@@ -20,7 +20,7 @@ from pydantic import (
     model_validator,
 )
 
-from proc3s.errors import Issue, SpecError, did_you_mean
+from proc3s.errors import Issue, SpecError, blame, did_you_mean, worded
 
 Identifier = Annotated[str, Field(pattern=r"^[A-Za-z_][A-Za-z0-9_]*$", max_length=80)]
 TaskName = Annotated[str, Field(pattern=r"^[A-Za-z_][A-Za-z0-9_-]*$", max_length=80)]
@@ -47,9 +47,10 @@ class Target(Spec):
         """The object that `target` names. Raises SpecError if it cannot be imported."""
         module_name, _, name = self.target.partition(":")
         try:
-            module = importlib.import_module(module_name)
-        except Exception as error:  # a module may raise anything while it is imported
-            text = f"cannot be imported: {type(error).__name__}: {error}"
+            with blame("target"):  # a module may raise anything while it is imported
+                module = importlib.import_module(module_name)
+        except SpecError as error:
+            text = f"cannot be imported: {worded(error.__cause__ or error)}"
             raise SpecError([Issue(self.target, "target", text)]) from error
         if not hasattr(module, name):
             public = [n for n in vars(module) if not n.startswith("_")]

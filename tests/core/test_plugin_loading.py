@@ -4,7 +4,7 @@ import textwrap
 
 import pytest
 
-from proc3s import MethodSpec, UsageError
+from proc3s import MethodSpec, SpecError, UsageError
 from proc3s.plugins import PluginManager
 from proc3s.registry import open_registry
 
@@ -153,7 +153,7 @@ def test_a_loose_file_does_not_take_the_place_of_an_imported_module(folder, monk
 )
 def test_a_broken_file_that_was_named_is_said_at_once(folder, text, words):
     path = write(folder, "toy_named", text)
-    with pytest.raises(UsageError, match=words):
+    with pytest.raises((SpecError, UsageError), match=words):
         PluginManager([path])
 
 

@@ -10,6 +10,7 @@ from pydantic import BaseModel, ConfigDict
 from proc3s.conformance import judging, reading, stepping
 from proc3s.conformance.fault import Fault, located
 from proc3s.conformance.subject import Subject, explain
+from proc3s.errors import blame
 
 Run: TypeAlias = Callable[[Subject], Iterator[Fault]]
 
@@ -130,8 +131,9 @@ def findings(check: Check, subject: Subject) -> list[CheckFinding]:
     """What one check finds."""
     found: list[Fault] = []
     try:
-        found += check.run(subject)
-    except Exception as error:  # a domain's function may raise anything
+        with blame(check.name, Exception):  # a domain's function may raise anything
+            found += check.run(subject)
+    except Exception as error:
         found.append(Fault(explain(error)))
     return [
         CheckFinding(

@@ -6,7 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from proc3s.samplers import Sampler, Space
+from proc3s.errors import blame
+from proc3s.samplers import Sampler, Space, decoded
 from proc3s.sketch.errors import SketchIssue
 from proc3s.sketch.protocol import Contents, Malformed, ReadParameter, Scalar
 from proc3s.sketch.text import Source, clean, message
@@ -28,7 +29,7 @@ class OpenParameter:
         """The value in the middle of the cube, as it crosses."""
         if self.sampler is None:
             return [None]
-        centre: list[float | None] = self.sampler.decode(np.full((1, self.sampler.dim), 0.5))[0].tolist()
+        centre: list[float | None] = decoded(self.sampler, np.full((1, self.sampler.dim), 0.5))[0].tolist()
         return centre
 
     def value(self, columns: list[float]) -> Scalar | tuple[float, ...]:
@@ -68,7 +69,9 @@ def _open(read: ReadParameter, known: Mapping[str, SamplerSpec]) -> OpenParamete
             raise Malformed("a sampler has wrong arguments")
         args[name] = [_cleaned(v) for v in value] if isinstance(value, list) else value
     choices = tuple(args[next(iter(spec.params))]) if spec.gives == "choice" else ()
-    return OpenParameter(read.name, spec.load()(**args), choices)
+    make = spec.load()
+    with blame(f"sampler {spec.name}", ValueError):
+        return OpenParameter(read.name, make(**args), choices)
 
 
 def _cleaned(value: Scalar) -> Scalar:
