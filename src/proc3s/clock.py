@@ -1,9 +1,12 @@
 """Where the seconds go: wall and CPU time by stage, children included."""
 
+import math
 import os
 import time
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+
+from proc3s.errors import OutOfTime
 
 STAGES = ("llm", "solve", "execute")
 """Stages of a run."""
@@ -38,6 +41,22 @@ class Clock:
         """Wall and CPU seconds since the clock was made, and those that went by before."""
         wall, cpu = _since(self._begun)
         return self._earlier[0] + wall, self._earlier[1] + cpu
+
+
+class Deadline:
+    """Wall-clock seconds from now on; without a number there is no end. `option` is what set it."""
+
+    def __init__(self, option: str, seconds: float | None) -> None:
+        self._option, self._seconds = option, seconds
+        self._end = math.inf if seconds is None else time.monotonic() + seconds
+
+    def check(self) -> None:
+        """Raises OutOfTime once the time is over."""
+        if time.monotonic() >= self._end:
+            raise OutOfTime(
+                f"broken off after {self._seconds:g} s ({self._option}={self._seconds:g}); "
+                "more time might have found a plan"
+            )
 
 
 def _now() -> tuple[float, float]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import ClassVar, Literal
 
-Stopped = Literal["usage", "llm", "budget", "pending", "interrupted"]
+Stopped = Literal["usage", "llm", "budget", "pending", "interrupted", "time"]
 
 
 class Proc3sError(Exception):
@@ -70,6 +70,13 @@ class Pending(Proc3sError):
 
     exit_code: ClassVar[int] = 4
     stopped: ClassVar[Stopped] = "pending"
+
+
+class OutOfTime(Proc3sError):
+    """A limit of wall-clock time broke the run off, which says nothing of its programs (exit code 1)."""
+
+    exit_code: ClassVar[int] = 1
+    stopped: ClassVar[Stopped] = "time"
 
 
 class Interrupted(Proc3sError):

@@ -11,6 +11,7 @@ import numpy as np
 from proc3s.evaluation import Sketch
 from proc3s.executors import Executor
 from proc3s.jitter import Jitter
+from proc3s.limits import ClockLimits
 from proc3s.problem import Problem, Trial
 from proc3s.samplers import Space
 from proc3s.setup_code import setup_code
@@ -38,6 +39,7 @@ class Setup:
     make_solver: MakeSolver
     executor: Executor
     limits: Limits = field(default_factory=Limits)
+    clock_limits: ClockLimits = field(default_factory=ClockLimits)
     locked: bool = True
     audit: int = 0
     picture: Path | None = None

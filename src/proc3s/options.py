@@ -1,26 +1,25 @@
 """Options of a run as plain data, and the wiring of the chosen plugins into a `Setup`."""
 
-import dataclasses
 import json
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from pydantic import BaseModel, Field, TypeAdapter, ValidationError
+from pydantic import BaseModel, Field
 
 from proc3s import specs
 from proc3s.budget import Budget
 from proc3s.domain import Domain
-from proc3s.errors import UsageError, blame, did_you_mean
+from proc3s.errors import UsageError, blame
 from proc3s.executors import Executor
 from proc3s.grounding import Setup
+from proc3s.limits import make_limits
 from proc3s.problem import Problem
 from proc3s.prompts import Prompter
 from proc3s.registry import Registry
 from proc3s.samplers import Space
 from proc3s.sketch.errors import SketchError
-from proc3s.sketch.limits import Limits
 from proc3s.solving import Solver
 from proc3s.specfile import scalar, validate
 from proc3s.world import World
@@ -137,6 +136,7 @@ def make_setup(registry: Registry, options: RunOptions, problem: Problem) -> Set
     with blame(f"executor {options.executor}"):
         executor: Executor = make_executor(jobs=options.jobs)
     problem.domain.require(problem.task)
+    limits, clock_limits = make_limits(options.limits)
     if problem.robust and problem.domain.spec.world.load().disturb is World.disturb:
         raise UsageError(f"--robust: nothing disturbs the world of {problem.domain.spec.name}")
 
@@ -152,28 +152,11 @@ def make_setup(registry: Registry, options: RunOptions, problem: Problem) -> Set
         solver=name,
         make_solver=make_solver,
         executor=executor,
-        limits=make_limits(options.limits),
+        limits=limits,
+        clock_limits=clock_limits,
         locked=not options.unsafe_exec,
         audit=options.audit,
     )
-
-
-def make_limits(given: dict[str, str]) -> Limits:
-    """Limits of the box with what the command line changes. Raises UsageError."""
-    known = TypeAdapter(Limits)
-    names = [f.name for f in dataclasses.fields(Limits)]
-    for name in given:
-        if name not in names:
-            raise UsageError(f"there is no limit {name!r}{did_you_mean(name, names)}")
-    try:
-        limits = known.validate_python(given)
-    except ValidationError as error:
-        detail = error.errors()[0]
-        raise UsageError(f"limit {detail['loc'][0]}: {detail['msg']}, not {detail['input']!r}") from error
-    for name in given:
-        if getattr(limits, name) <= 0:
-            raise UsageError(f"limit {name}: must be above 0, not {given[name]!r}")
-    return limits
 
 
 def options_model(spec: specs.SolverSpec | specs.LLMSpec) -> type[BaseModel] | None:

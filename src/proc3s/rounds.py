@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from proc3s.audit import Audit
+from proc3s.clock import Deadline
 from proc3s.conversation import Exchange, Proposal
 from proc3s.errors import Proc3sError
 from proc3s.evaluation import Evaluator
@@ -89,8 +90,9 @@ may name a later step, or another constraint, than the world would."""
 
 def run_round(setup: Setup, proposals: Sequence[Proposal], emit: Emit) -> Round:
     """Ground every program, let them race, diagnose what failed."""
+    deadline = Deadline("--limit round", setup.clock_limits.round)
     with ExitStack() as boxes:
-        entrants = [_enter(setup, proposal, boxes, emit) for proposal in proposals]
+        entrants = [_enter(setup, proposal, boxes, emit, deadline) for proposal in proposals]
         race([e.search for e in entrants if isinstance(e, Entrant)], _budget(setup, len(entrants)))
         attempts = tuple(
             _attempt(e, proposal, emit)
@@ -108,7 +110,9 @@ def _budget(setup: Setup, programs: int = 1) -> int:
     return {"none": 0, "one": programs, "budget": setup.problem.samples}[setup.method.samples]
 
 
-def _enter(setup: Setup, proposal: Proposal, boxes: ExitStack, emit: Emit) -> Entrant | SketchError:
+def _enter(
+    setup: Setup, proposal: Proposal, boxes: ExitStack, emit: Emit, deadline: Deadline
+) -> Entrant | SketchError:
     """A search of the program, not begun yet; or why there can be none."""
     round_, candidate = proposal.round, proposal.candidate
     try:
@@ -118,7 +122,7 @@ def _enter(setup: Setup, proposal: Proposal, boxes: ExitStack, emit: Emit) -> En
         opened = boxes.enter_context(open_sketch(setup))
         prewarm(setup.limits, setup.locked)  # confirms the winner, or serves the next program
         emit(_loaded(proposal, opened))
-        return _search(setup, opened, proposal, emit)
+        return _search(setup, opened, proposal, emit, deadline)
     except SketchError as error:
         return error
 
@@ -134,7 +138,7 @@ def _loaded(proposal: Proposal, opened: Opened) -> SketchLoaded:
     )
 
 
-def _search(setup: Setup, opened: Opened, proposal: Proposal, emit: Emit) -> Entrant:
+def _search(setup: Setup, opened: Opened, proposal: Proposal, emit: Emit, deadline: Deadline) -> Entrant:
     audit = Audit(setup.audit, setup.problem.seed) if setup.audit else None
     review = Audit(REVIEWED, setup.problem.seed)
     evaluator = Evaluator(setup.problem, opened.sketch, setup.executor, Repeatable(setup), audit, review)
@@ -144,7 +148,7 @@ def _search(setup: Setup, opened: Opened, proposal: Proposal, emit: Emit) -> Ent
     space = replace(opened.sketch.space, probe=lambda: influence(opened.sketch))
     solver = setup.make_solver(space, _budget(setup), rng)
     report = partial(BatchEvaluated.from_trials, proposal.round, proposal.candidate)
-    search = Search(space, solver, evaluator, lambda trials: emit(report(trials)))
+    search = Search(space, solver, evaluator, lambda trials: emit(report(trials)), deadline.check)
     return Entrant(setup, opened, evaluator, search, audit, review)
 
 

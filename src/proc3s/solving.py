@@ -30,6 +30,7 @@ class Search:
     """One program's search, which can be continued: every trial in order, and what stopped it.
 
     `halted` is the program's own fault, `broken_off` is not. `report` sees the trials batch by batch.
+    `check` is called between trials and may raise what breaks the search off.
     """
 
     def __init__(
@@ -38,11 +39,13 @@ class Search:
         solver: Solver,
         evaluator: Evaluator,
         report: Callable[[Sequence[Trial]], None] = lambda trials: None,
+        check: Callable[[], None] = lambda: None,
     ) -> None:
         self.space = space
         self._solver = solver
         self._evaluator = evaluator
         self._report = report
+        self._check = check
         self._exhausted = False
         self.trials: list[Trial] = []
         self.halted: SketchError | None = None
@@ -71,6 +74,7 @@ class Search:
         end = len(self.trials) + (min(samples, 1) if self.space.dim == 0 else samples)
         try:
             while len(self.trials) < end and not self.over:
+                self._check()
                 self._step(end - len(self.trials))
         except SketchError as error:  # a solver may run the program too, to see which parameters matter
             self.halted = error
@@ -99,6 +103,7 @@ class Search:
                 self.trials.append(trial)
                 if trial.accepted:
                     break
+                self._check()
         except SketchError as error:
             self.halted = error
         except Proc3sError as error:

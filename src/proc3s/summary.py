@@ -7,6 +7,7 @@ from typing import Any, Literal
 from pydantic import BaseModel, ConfigDict
 
 from proc3s.budget import Spent
+from proc3s.errors import Stopped
 from proc3s.feedback import Diagnosis, Failure
 from proc3s.grounding import Setup
 from proc3s.options import RunOptions
@@ -68,7 +69,7 @@ class Summary(BaseModel):
     """What the answers cost, recorded ones when they were recorded; unknown sums are null."""
     run_dir: str | None = None
     """The run folder."""
-    stopped: Literal["usage", "llm", "budget", "pending", "interrupted"] | None = None
+    stopped: Stopped | None = None
     """Why the run did not come to its end, in a word; `error` says it in a sentence."""
     error: str | None = None
     """Null unless the run could not be carried out."""

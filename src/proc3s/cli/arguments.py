@@ -85,7 +85,9 @@ CheckGoal: TypeAlias = Annotated[
 ]
 LimitOptions: TypeAlias = Annotated[
     list[str] | None,
-    typer.Option("--limit", metavar="KEY=VALUE", help="limit of the box, e.g. call=2"),
+    typer.Option(
+        "--limit", metavar="KEY=VALUE", help="limit of the box, e.g. call=2, or of the clock, e.g. round=60"
+    ),
 ]
 UnsafeExec: TypeAlias = Annotated[
     bool, typer.Option("--unsafe-exec", help="run programs WITHOUT the kernel's lock; warns each time")

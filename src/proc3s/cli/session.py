@@ -16,6 +16,7 @@ from proc3s.config import choose_llm
 from proc3s.conversation import Propose, Question, ask_llm, given_program
 from proc3s.errors import LLMError, Proc3sError, UsageError
 from proc3s.events import AnswerReceived, CallFailed, Charged, Event, RunEnded, RunResumed, RunStarted
+from proc3s.limits import box_limits
 from proc3s.llms import Request, Source
 from proc3s.options import (
     RunOptions,
@@ -33,7 +34,7 @@ from proc3s.specfile import validate
 from proc3s.summary import Summary, summarize
 
 _OPTION_LISTS = ("domain_options", "method_options", "solver_options", "llm_options", "limits")
-_MAY_CHANGE = {"llm", "llm_options", "llm_jobs", "jobs", "executor", "record", "budget"}
+_MAY_CHANGE = {"llm", "llm_options", "llm_jobs", "jobs", "executor", "record", "budget", "limits"}
 """What another process may do otherwise, and still go on with the same run."""
 _LIMITS = ("max_cost", "max_tokens", "max_calls")
 
@@ -158,6 +159,10 @@ def _resumed(logged: RunOptions, changes: dict[str, Any]) -> RunOptions:
     """The options of a run that goes on. Raises UsageError for a change that would make it another run."""
     if fixed := sorted(set(changes) - _MAY_CHANGE):
         raise UsageError(f"a run that goes on keeps its {fixed[0].replace('_', ' ')}; leave that option out")
+    if box_limits(changes.get("limits", {})):
+        raise UsageError("a run that goes on keeps the limits of its box; only those of the clock may change")
+    if "limits" in changes:
+        changes["limits"] = {**logged.limits, **changes["limits"]}
     if "budget" in changes:
         changes["budget"] = {**logged.budget.model_dump(), **changes["budget"]}
     if "llm" in changes:
