@@ -7,11 +7,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from proc3s import Domain, FloatArray, PlanBatch, State, Violation, sentence
-from proc3s_drawing.world import CANVAS_SIZE, CLEARANCE
+from proc3s_drawing.world import CANVAS_SIZE, CLEARANCE, clear_of_obstacles, draw_line, inside
 
 Verdicts: TypeAlias = list[Violation | None]
 
-SKILL = "draw_line"
+RULES = [inside, clear_of_obstacles]
+"""What is foreseen of a line, in the order in which the first violation is found."""
 _BAND = 1e-6
 """Nearer to the edge of an obstacle than this the world decides: for lines shorter than 1e-5 its own
 arithmetic is not better."""
@@ -27,9 +28,9 @@ def segments_clear(state: State, batch: PlanBatch, domain: Domain) -> Verdicts:
     """The first violation that the canvas would report for each plan, and None for a plan without one.
 
     None too where the world must decide: within 1e-6 canvas units of the edge of an obstacle, behind an
-    action that draws no line, and in a domain to which a plugin has added constraints.
+    action that draws no line, and in a domain with other constraints than the canvas's own two.
     """
-    if set(domain.spec.constraints) != {"inside", "collision"}:
+    if list(domain.margins.values()) != RULES:
         return [None] * len(batch)
     with np.errstate(invalid="ignore", over="ignore"):  # samples without a legal plan may hold any number
         return _Obstacles(state, domain).verdicts(batch)
@@ -39,34 +40,33 @@ class _Obstacles:
     """Centres and radii of the inflated discs of a state, and the texts of the violations."""
 
     def __init__(self, state: State, domain: Domain) -> None:
-        constraints = domain.spec.constraints
+        within, clear = domain.spec.constraints.values()
+        self._domain = domain
         obstacles: tuple[Any, ...] = getattr(state, "obstacles")  # noqa: B009 - a field of the spec
         self._x = np.array([o.x_pos for o in obstacles], np.float64)
         self._y = np.array([o.y_pos for o in obstacles], np.float64)
         self._radius = np.array([o.radius + CLEARANCE for o in obstacles], np.float64)
-        self._least_inside = -constraints["inside"].tolerance
-        self._least_clear = -constraints["collision"].tolerance
-        self._reasons = [("inside", sentence(constraints["inside"], {"axis": axis})) for axis in "xy"]
-        self._reasons += [
-            ("collision", sentence(constraints["collision"], {"obstacle": o.name})) for o in obstacles
-        ]
+        self._least_inside = -within.tolerance
+        self._least_clear = -clear.tolerance
+        self._reasons = [(within.name, sentence(within, {"axis": axis})) for axis in "xy"]
+        self._reasons += [(clear.name, sentence(clear, {"obstacle": o.name})) for o in obstacles]
 
     def verdicts(self, batch: PlanBatch) -> Verdicts:
         """One for each plan of the batch."""
         found: Verdicts = [None] * len(batch)
-        lines, drawn = _lines(batch)
-        inside, axis = _inside(lines)
-        outside = inside < self._least_inside
+        lines, drawn = _lines(batch, self._domain)
+        within, axis = _inside(lines)
+        outside = within < self._least_inside
         plans, actions = _first(self._near(lines, outside | ~drawn, batch.start), batch.start)
-        reason, margin = axis[actions], inside[actions]
+        reason, margin = axis[actions], within[actions]
         hit = ~outside[actions]
         reason[hit], margin[hit], sure = self._touched(lines[actions[hit]])
         certain = drawn[actions]
         certain[hit] &= sure
-        columns = (plans, actions - batch.start[plans], reason, margin)
-        for i, step, k, value in zip(*(column[certain].tolist() for column in columns), strict=True):
+        columns = (plans, actions - batch.start[plans], batch.skill[actions], reason, margin)
+        for i, step, skill, k, value in zip(*(column[certain].tolist() for column in columns), strict=True):
             constraint, text = self._reasons[k]
-            found[i] = Violation(constraint, step, SKILL, value, text)
+            found[i] = Violation(constraint, step, batch.signatures[skill].skill, value, text)
         return found
 
     def _near(
@@ -124,9 +124,9 @@ class _Obstacles:
         return dx
 
 
-def _lines(batch: PlanBatch) -> tuple[FloatArray, NDArray[np.bool_]]:
+def _lines(batch: PlanBatch, domain: Domain) -> tuple[FloatArray, NDArray[np.bool_]]:
     """The line of every action, shape (n, 4), and whether it draws one; if not, the line is a point."""
-    drawing = [signature.skill == SKILL for signature in batch.signatures]
+    drawing = [domain.skill(s.skill) is draw_line and s.width == 4 for s in batch.signatures]
     drawn = np.array(drawing, bool)[batch.skill]
     if drawn.all():
         return batch.values.reshape(-1, 4), drawn

@@ -3,9 +3,10 @@
 import dataclasses
 from typing import Any, NoReturn
 
+from proc3s import FloatArray
 from proc3s_tabletop.recipe import Recipe
 from proc3s_tabletop.scene import Scene
-from proc3s_tabletop.telemetry import Clearance, Stage, Telemetry, least
+from proc3s_tabletop.telemetry import Attempted, Clearance, Stage, Telemetry, least
 
 
 class Stopped(Exception):
@@ -13,13 +14,14 @@ class Stopped(Exception):
 
 
 class Attempt:
-    """Carries the telemetry of an action from stage to stage."""
+    """Carries the telemetry of an action from stage to stage; `grasp` (4, 4) is where it is commanded to."""
 
-    def __init__(self, scene: Scene) -> None:
+    def __init__(self, scene: Scene, attempted: Attempted, grasp: FloatArray) -> None:
         self.scene = scene
         self.recipe: Recipe = scene.recipe
         held = scene.held.name if scene.held else None
-        self.telemetry = Telemetry(held=held)
+        x, y, z = grasp[:3, 3].tolist()
+        self.telemetry = Telemetry(attempted, (x, y, z), held=held)
         self.before = scene.frames()
 
     def note(self, **measured: Any) -> None:

@@ -57,7 +57,7 @@ def grasp(step: Step) -> Margin | None:
     """How far a pick is from losing its object, by what lies between the pads and by its slip; negative if
     nothing was grasped, or it slipped."""
     measured = step.telemetry
-    if step.action.skill != "pick" or (measured.ended and not _is_bad_grasp(step)):
+    if measured.attempted != "pick" or (measured.ended and not _is_bad_grasp(step)):
         return None
     if measured.ended:
         return Margin(-_lack(step), {"why": _why_no_grasp(step)})
@@ -82,9 +82,10 @@ def placement(step: Step, moved: float, turned: float, lowest: float) -> Margin 
     """How far everything not in hand is from having moved too far (m, rad) and from leaving the table, and
     how much higher the support was met than `lowest` below the commanded z; all negative when violated."""
     measured = step.telemetry
-    if step.action.skill == "place" and measured.target is None and measured.ended in (None, "hand"):
+    placing = measured.attempted == "place"
+    if placing and measured.target is None and measured.ended in (None, "hand"):
         return Margin(-UNMEASURED, {"why": "there is nothing in the hand to set down"})
-    if step.action.skill == "place" and measured.ended == "hand":
+    if placing and measured.ended == "hand":
         return Margin(-max(UNMEASURED, measured.grasp_apart or 0.0), {"why": _not_held_so(step)})
     if measured.ended and measured.ended != "support":
         return None
@@ -143,7 +144,7 @@ def _met_too_early(step: Step, highest: float) -> Iterator[Margin]:
 def _is_bad_grasp(step: Step) -> bool:
     """Whether a pick ended because of how it grasps, and not because of what is in the way."""
     measured = step.telemetry
-    if step.action.skill != "pick":
+    if measured.attempted != "pick":
         return False
     if measured.ended == "approach" and measured.clearance:
         return measured.clearance.other == _meant(step)[0]
@@ -189,12 +190,11 @@ def _meant(step: Step) -> tuple[str | None, float]:
     """The object that the action names, or whose centre is nearest to the commanded point, and how far that
     is from it, m."""
     objects: Any = getattr(step.before, "objects", {})
-    if step.telemetry.wanted is not None:
-        grasp: Any = step.action.args[1]
-        return step.telemetry.wanted, math.hypot(grasp.x, grasp.y, grasp.z)
-    point = [float(value) for value in step.action.args]  # type: ignore[arg-type]
+    point, wanted = step.telemetry.commanded, step.telemetry.wanted
+    if point is None:
+        return wanted, PAD_WIDTH
     found = {name: math.dist(point, (o.pose.x, o.pose.y, o.pose.z)) for name, o in objects.items()}
-    name = min(found, key=lambda n: found[n], default=None)
+    name = wanted or min(found, key=lambda n: found[n], default=None)
     return name, found[name] if name else PAD_WIDTH
 
 

@@ -14,7 +14,7 @@ from proc3s_tabletop.motors import ITERATIONS, Motors
 from proc3s_tabletop.pressing import Guard, between_pads, support
 from proc3s_tabletop.settling import compare, note_bounds, settle
 from proc3s_tabletop.table import Table
-from proc3s_tabletop.telemetry import Telemetry, displacement, least
+from proc3s_tabletop.telemetry import Attempted, Telemetry, displacement, least
 from proc3s_tabletop.things import Frame, Held
 from proc3s_tabletop.world import TabletopWorld
 
@@ -35,18 +35,20 @@ class Execution(Table):
 
     def pick_at(self, grasp: FloatArray) -> Telemetry:
         """Open the hand, go down, close it, and lift whatever is in it."""
-        return self._carry_out(pick, grasp)
+        return self._carry_out("pick", pick, grasp)
 
     def place_at(self, grasp: FloatArray) -> Telemetry:
         """Go down until the hand or its load meets something, open it, and leave."""
-        return self._carry_out(place, grasp)
+        return self._carry_out("place", place, grasp)
 
-    def _carry_out(self, action: Callable[[Attempt, FloatArray], None], grasp: FloatArray) -> Telemetry:
+    def _carry_out(
+        self, attempted: Attempted, action: Callable[[Attempt, FloatArray], None], grasp: FloatArray
+    ) -> Telemetry:
         """Run an action from the snapshot and keep where it led to."""
         x, y = grasp[:2, 3].tolist()
         self.scene.load(self.snapshot)
         self.scene.set_iterations(ITERATIONS)
-        attempt = Attempt(self.scene)
+        attempt = Attempt(self.scene, attempted, grasp)
         try:
             action(attempt, grasp)
         except Stopped:

@@ -7,14 +7,16 @@ import numpy as np
 
 from proc3s import Domain, FloatArray, PlanBatch, State
 from proc3s_tabletop.body_specs import bodies_of, body_of
-from proc3s_tabletop.constraints import PAD_WIDTH, UNMEASURED
-from proc3s_tabletop.foresight import WORLD, Foresight, Verdicts
+from proc3s_tabletop.constraints import PAD_WIDTH, UNMEASURED, grasp
+from proc3s_tabletop.foresight import Foresight, Verdicts, skill_of
 from proc3s_tabletop.layout import Bools
 from proc3s_tabletop.lone_grasps import LoneGrasps, lone_grasps
 from proc3s_tabletop.recipe import Recipe
+from proc3s_tabletop.world import pick_object, place_object
 
 RECIPE = Recipe()
-FUNCTION = f"{WORLD}:pick_object"
+KNOWN = (pick_object, place_object)
+"""What a plan does before a pick may be these only: another skill may tip things over."""
 NEAR = 2e-4
 """A hand that is deeper in the body than the world allows by less than this may pass, m."""
 SPARE = 0.05
@@ -28,12 +30,12 @@ def grasps(state: State, batch: PlanBatch, domain: Domain) -> Verdicts:
     so it does not matter if that has been pushed along, as long as it has not been tipped over.
     """
     foresight = Foresight(state, batch, domain)
-    for spec in domain.spec.skills.values():
-        if spec.target == FUNCTION:
-            alone = _Alone(state, batch, domain, spec.name)
-            # lift tests are dear: they are for plans of which no grasp fails otherwise
-            for reject in (_misfits, _slips):
-                _foresee(foresight, spec.name, alone, reject)
+    picks = [s for s in batch.signatures if skill_of(domain, s) is pick_object]
+    if picks:
+        alone = _Alone(state, domain, picks[0].params[0].choices)
+        # lift tests are dear: they are for plans of which no grasp fails otherwise
+        for reject in (_misfits, _slips):
+            _foresee(foresight, alone, reject)
     return foresight.verdicts
 
 
@@ -45,11 +47,10 @@ Reject: TypeAlias = Callable[[LoneGrasps, FloatArray, str], Rejected]
 class _Alone:
     """The objects of a scene by their number in the columns of a skill, each with its lone grasps."""
 
-    def __init__(self, state: State, batch: PlanBatch, domain: Domain, skill: str) -> None:
+    def __init__(self, state: State, domain: Domain, names: tuple[str, ...]) -> None:
         self._bodies = bodies_of(domain.spec.world.args.get("bodies"))
         self._objects: Mapping[str, Any] = state.objects  # type: ignore[attr-defined]
-        params = [s.params for s in batch.signatures if s.skill == skill]
-        self.names: tuple[str, ...] = params[0][0].choices if params else ()
+        self.names = names
 
     def of(self, number: int) -> LoneGrasps:
         """What is known of grasping an object."""
@@ -59,11 +60,13 @@ class _Alone:
         return lone_grasps(body, round(thing.pose.roll, 4), round(thing.pose.pitch, 4))
 
 
-def _foresee(foresight: Foresight, skill: str, alone: _Alone, reject: Reject) -> None:
+def _foresee(foresight: Foresight, alone: _Alone, reject: Reject) -> None:
     """Put the first pick of every object in every plan to a test."""
     picked = np.zeros((len(foresight.open), len(alone.names)), bool)
+    known = foresight.first_other(KNOWN)
     for step in foresight.steps:
-        rows, values = foresight.at(step, skill, 7)
+        rows, values = foresight.at(step, pick_object, 7)
+        rows, values = rows[step < known[rows]], values[step < known[rows]]
         which, wanted = values[:, 0].astype(int), values[:, 1:]
         new = ~picked[rows, which]
         picked[rows, which] = True
@@ -71,7 +74,7 @@ def _foresee(foresight: Foresight, skill: str, alone: _Alone, reject: Reject) ->
             mine = new & (which == number)
             bad, margins, whys = reject(alone.of(number), wanted[mine], foresight.called(alone.names[number]))
             told = [{"why": why} for why, is_bad in zip(whys, bad, strict=True) if is_bad]
-            foresight.reject(step, skill, "grasp", rows[mine][bad], margins[bad], told.__getitem__)
+            foresight.reject(step, grasp, rows[mine][bad], margins[bad], told.__getitem__)
 
 
 def _misfits(known: LoneGrasps, wanted: FloatArray, what: str) -> Rejected:

@@ -4,7 +4,7 @@ import numpy as np
 
 from proc3s import FloatArray
 from proc3s_tabletop.columns import GAPS, columns
-from proc3s_tabletop.constraints import COLLISIONS, PAD_WIDTH, UNMEASURED
+from proc3s_tabletop.constraints import COLLISIONS, PAD_WIDTH, UNMEASURED, collision, grasp
 from proc3s_tabletop.foresight import BAND, Foresight
 from proc3s_tabletop.grasping import INSIDE
 from proc3s_tabletop.layout import Bools, Layout, Rows
@@ -37,8 +37,7 @@ def _empty(foresight: Foresight, lie: Layout, step: int, rows: Rows, at: FloatAr
     margins = np.full(len(names), -UNMEASURED)
     foresight.reject(
         step,
-        "pick",
-        "grasp",
+        grasp,
         rows[full],
         margins,
         lambda i: {"why": f"the hand already holds {foresight.called(names[i])}"},
@@ -66,8 +65,8 @@ def _free_way_down(foresight: Foresight, lie: Layout, step: int, rows: Rows, at:
         return touching(foresight, foresight.called(HAND), name, "approach")
 
     hit = rows[met]
-    foresight.reject(step, "pick", "grasp", hit[own], margins[own], bad_grasp)
-    foresight.reject(step, "pick", "collision", hit[~own], margins[~own], contact)
+    foresight.reject(step, grasp, hit[own], margins[own], bad_grasp)
+    foresight.reject(step, collision, hit[~own], margins[~own], contact)
     return ~met
 
 
@@ -77,8 +76,7 @@ def _free_table(foresight: Foresight, lie: Layout, step: int, rows: Rows, at: Fl
     low: Bools = height < 0
     foresight.reject(
         step,
-        "pick",
-        "collision",
+        collision,
         rows[low],
         height[low],
         lambda i: touching(foresight, foresight.called(HAND), TABLE, "approach"),
@@ -137,7 +135,7 @@ def _reject_grasps(
         hint = f"; the nearest object is {foresight.called(names[int(away[i].argmin())])}" if names else ""
         return {"why": f"nothing is between the fingers{hint}"}
 
-    foresight.reject(step, "pick", "grasp", rows, margins, why)
+    foresight.reject(step, grasp, rows, margins, why)
 
 
 def _free_way_up(foresight: Foresight, lie: Layout, step: int, rows: Rows, target: Rows) -> Bools:
@@ -153,8 +151,7 @@ def _free_way_up(foresight: Foresight, lie: Layout, step: int, rows: Rows, targe
     names, own = lie.bodies.names, target[buried]
     foresight.reject(
         step,
-        "pick",
-        "collision",
+        collision,
         rows[buried],
         -depth[buried].max(axis=1, initial=0.0),
         lambda i: touching(

@@ -6,7 +6,7 @@ import numpy as np
 
 from proc3s import FloatArray
 from proc3s_tabletop.columns import columns
-from proc3s_tabletop.constraints import UNMEASURED
+from proc3s_tabletop.constraints import UNMEASURED, collision, placement
 from proc3s_tabletop.foresight import BAND, Foresight
 from proc3s_tabletop.layout import Bools, Layout, Rows
 from proc3s_tabletop.pick_screen import HAND, touching
@@ -65,7 +65,7 @@ def _full(foresight: Foresight, lie: Layout, step: int, rows: Rows, at: FloatArr
     empty: Bools = lie.held[rows] < 0
     margins = np.full(int(empty.sum()), -UNMEASURED)
     why = {"why": "there is nothing in the hand to set down"}
-    foresight.reject(step, "place", "placement", rows[empty], margins, lambda i: why)
+    foresight.reject(step, placement, rows[empty], margins, lambda i: why)
     unknown = ~empty & ~np.isfinite(lie.slack[rows, lie.held[rows]])
     foresight.leave(rows[unknown])
     kept: Bools = ~empty & ~unknown
@@ -78,7 +78,7 @@ def _within_bounds(foresight: Foresight, lie: Layout, step: int, rows: Rows, at:
     inside = np.minimum(at[:, :2] - low, high - at[:, :2]).min(axis=1)
     outside: Bools = inside < 0
     why = {"why": "the commanded point lies outside the bounds of the table"}
-    foresight.reject(step, "place", "placement", rows[outside], inside[outside], lambda i: why)
+    foresight.reject(step, placement, rows[outside], inside[outside], lambda i: why)
     return ~outside
 
 
@@ -106,7 +106,7 @@ def _highest(descent: Descent, depth: FloatArray) -> FloatArray:
 
 def _not_too_high(foresight: Foresight, lie: Layout, step: int, descent: Descent) -> Bools:
     """Whether nothing stands in the way well above the commanded z."""
-    limit = foresight.args("collision").get("highest", np.inf)
+    limit = foresight.args(collision).get("highest", np.inf)
     tops = np.where(descent.under > 0, descent.tops, -np.inf)
     over = tops.max(axis=1, initial=-np.inf) - _bottom(lie, descent) - limit - BAND
     blocked: Bools = over > 0
@@ -118,14 +118,14 @@ def _not_too_high(foresight: Foresight, lie: Layout, step: int, descent: Descent
         when = {"when": "far above the z where it should be set down"}
         return touching(foresight, body, names[which[i]], "carry") | when
 
-    foresight.reject(step, "place", "collision", descent.rows[blocked], -over[blocked], met)
+    foresight.reject(step, collision, descent.rows[blocked], -over[blocked], met)
     return ~blocked
 
 
 def _clear_of_hand(foresight: Foresight, lie: Layout, step: int, descent: Descent) -> Bools:
     """Whether there is room for the fingers around the object, closed and then open."""
     # To stand on what rises above the limit would be no better.
-    limit = foresight.args("collision").get("highest", np.inf)
+    limit = foresight.args(collision).get("highest", np.inf)
     bottom = _bottom(lie, descent)
     low = np.where(descent.tops < (bottom + limit + BAND)[:, None], descent.maybe, -np.inf)
     rise = np.maximum(_highest(descent, low) - bottom, 0.0)
@@ -150,8 +150,7 @@ def _reject_contacts(
         names = [lie.bodies.names[k] for k in depth.argmax(axis=1)]
         foresight.reject(
             step,
-            "place",
-            "collision",
+            collision,
             rows,
             -depth.max(axis=1),
             lambda i: touching(foresight, foresight.called(HAND), names[i], stage),
@@ -160,7 +159,7 @@ def _reject_contacts(
 
 def _supported(foresight: Foresight, lie: Layout, step: int, descent: Descent) -> Bools:
     """Whether there is something to stand on not far below."""
-    lowest = foresight.args("placement").get("lowest", np.inf)
+    lowest = foresight.args(placement).get("lowest", np.inf)
     tops = np.where(descent.maybe > 0, descent.tops, -np.inf)
     drop = _bottom(lie, descent) - _highest(descent, descent.maybe) - lowest - BAND
     high: Bools = drop > 0
@@ -172,7 +171,7 @@ def _supported(foresight: Foresight, lie: Layout, step: int, descent: Descent) -
         what = foresight.called(names[own[i]])
         return {"why": f"{what} would be dropped from high above {foresight.called(on[i])}"}
 
-    foresight.reject(step, "place", "placement", descent.rows[high], -drop[high], why)
+    foresight.reject(step, placement, descent.rows[high], -drop[high], why)
     return ~high
 
 
@@ -186,7 +185,7 @@ def _standing(foresight: Foresight, lie: Layout, step: int, descent: Descent) ->
     def why(i: int) -> dict[str, str]:
         return {"why": f"{foresight.called(names[own[i]])} does not stay where it is released"}
 
-    foresight.reject(step, "place", "placement", descent.rows[falls], -beyond[falls], why)
+    foresight.reject(step, placement, descent.rows[falls], -beyond[falls], why)
     return ~falls
 
 

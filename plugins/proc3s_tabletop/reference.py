@@ -12,7 +12,7 @@ from proc3s_tabletop.placing import place
 from proc3s_tabletop.recipe import SAME_GRASP, Recipe
 from proc3s_tabletop.settling import note_bounds
 from proc3s_tabletop.table import Table
-from proc3s_tabletop.telemetry import Telemetry
+from proc3s_tabletop.telemetry import Attempted, Telemetry
 from proc3s_tabletop.things import Frame
 from proc3s_tabletop.workbench import Workbench
 
@@ -31,24 +31,26 @@ class Reference(Table):
 
     def pick_at(self, grasp: FloatArray) -> Telemetry:
         """Grasp and lift; ends early where that fails."""
-        return self._carry_out(functools.partial(pick, bench=self._bench), grasp)
+        return self._carry_out("pick", functools.partial(pick, bench=self._bench), grasp)
 
     def place_at(self, grasp: FloatArray) -> Telemetry:
         """Set down and leave; ends early where that fails."""
-        return self._carry_out(functools.partial(place, bench=self._bench), grasp)
+        return self._carry_out("place", functools.partial(place, bench=self._bench), grasp)
 
     def _refusal(self, name: str, apart: float | None) -> Telemetry | None:
         """A place needs that object in hand, by that grasp."""
         held = self.snapshot.held.name if self.snapshot.held else None
         if held is None or (held == name and apart is not None and apart <= SAME_GRASP):
             return None
-        return Telemetry(ended="hand", target=held, held=held, wanted=name, grasp_apart=apart)
+        return Telemetry("place", ended="hand", target=held, held=held, wanted=name, grasp_apart=apart)
 
-    def _carry_out(self, action: Callable[[Attempt, FloatArray], None], grasp: FloatArray) -> Telemetry:
+    def _carry_out(
+        self, attempted: Attempted, action: Callable[[Attempt, FloatArray], None], grasp: FloatArray
+    ) -> Telemetry:
         """Run an action from the snapshot; keep where it led to if it came to its end."""
         x, y = grasp[:2, 3].tolist()
         self.scene.load(self.snapshot)
-        attempt = Attempt(self.scene)
+        attempt = Attempt(self.scene, attempted, grasp)
         try:
             action(attempt, grasp)
         except Stopped:

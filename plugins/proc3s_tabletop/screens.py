@@ -12,16 +12,18 @@ import numpy as np
 from proc3s import Domain, FloatArray, PlanBatch, State
 from proc3s_tabletop import ik
 from proc3s_tabletop.body_specs import bodies_of
-from proc3s_tabletop.foresight import Foresight, Verdicts
+from proc3s_tabletop.constraints import kinematic
+from proc3s_tabletop.foresight import Foresight, Skill, Verdicts
 from proc3s_tabletop.layout import Bools, Layout, Rows, solids
 from proc3s_tabletop.motion import tool_poses, top_down
 from proc3s_tabletop.pick_screen import foresee_pick
 from proc3s_tabletop.place_screen import foresee_place
 from proc3s_tabletop.recipe import Recipe
+from proc3s_tabletop.world import pick, place
 
 RECIPE = Recipe()
 Foresee: TypeAlias = Callable[[Foresight, Layout, int, Rows, FloatArray], None]
-SKILLS: dict[str, Foresee] = {"pick": foresee_pick, "place": foresee_place}
+SKILLS: dict[Skill, Foresee] = {pick: foresee_pick, place: foresee_place}
 
 
 def geometry(state: State, batch: PlanBatch, domain: Domain) -> Verdicts:
@@ -33,7 +35,7 @@ def geometry(state: State, batch: PlanBatch, domain: Domain) -> Verdicts:
         return foresight.verdicts
     with np.errstate(invalid="ignore"):  # infinite slack
         for step in foresight.steps:
-            if not foresight.leave_all_but(frozenset(SKILLS), step):
+            if not foresight.leave_all_but(SKILLS, step):
                 break
             for skill, foresee in SKILLS.items():
                 rows, at = foresight.at(step, skill)
@@ -48,19 +50,19 @@ def reach(state: State, batch: PlanBatch, domain: Domain) -> Verdicts:
     asked = [
         (step, skill, *foresight.at(step, skill))
         for step in foresight.steps
-        if foresight.leave_all_but(frozenset(SKILLS), step)
+        if foresight.leave_all_but(SKILLS, step)
         for skill in SKILLS
     ]
     if not asked:
         return foresight.verdicts
-    low = [at - np.array([0, 0, RECIPE.press if skill == "place" else 0.0]) for _, skill, _, at in asked]
+    low = [at - np.array([0, 0, RECIPE.press if skill is place else 0.0]) for _, skill, _, at in asked]
     high = [at + np.array([0, 0, RECIPE.hover]) for *_, at in asked]
     missed = iter(np.split(~_reached(low, high), np.cumsum([len(at) for at in low])[:-1]))
-    for step, skill, rows, _ in asked:
+    for step, _, rows, _ in asked:
         fails = next(missed) & foresight.open[rows]
         # By how much, only the world measures: at least the next way-point.
         margins = np.full(int(fails.sum()), -RECIPE.line_spacing)
-        foresight.reject(step, skill, "kinematic", rows[fails], margins, lambda i: {})
+        foresight.reject(step, kinematic, rows[fails], margins, lambda i: {})
     return foresight.verdicts
 
 

@@ -4,6 +4,12 @@ import math
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
+Vector: TypeAlias = tuple[float, float, float]
+Quaternion: TypeAlias = tuple[float, float, float, float]
+
+Attempted: TypeAlias = Literal["pick", "place"]
+"""What an action tried, whatever its skill is called."""
+
 Stage: TypeAlias = Literal[
     "hand", "reach", "approach", "grasp", "close", "lift", "carry", "descent", "support", "release"
 ]
@@ -62,6 +68,10 @@ class Telemetry:
     then stands as it did before the action.
     """
 
+    attempted: Attempted | None = None
+    """What was tried; a skill that neither picks nor places leaves it out."""
+    commanded: Vector | None = None
+    """Where the grasp point was to come, m in the world."""
     ended: Stage | None = None
     target: str | None = None
     """The object the action is about: found between the fingers, or in hand at the start of a place."""
@@ -108,10 +118,6 @@ class Telemetry:
 def least(clearances: "list[Clearance | None]") -> Clearance | None:
     """The smallest of the clearances that exist; ties go to the first."""
     return min((c for c in clearances if c), key=lambda c: c.distance, default=None)
-
-
-Vector: TypeAlias = tuple[float, float, float]
-Quaternion: TypeAlias = tuple[float, float, float, float]
 
 
 def displacement(

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import (
+    AfterValidator,
     BaseModel,
     BeforeValidator,
     ConfigDict,
@@ -57,6 +58,17 @@ class Target(Spec):
             message = f"{module_name} has no {name!r}{did_you_mean(name, public)}"
             raise SpecError([Issue(self.target, "target", message)])
         return getattr(module, name)
+
+
+def _not_called(*taken: str) -> AfterValidator:
+    """A name that is not one of those that the loop itself gives."""
+
+    def check(name: str) -> str:
+        if name in taken:
+            raise ValueError(f"{name!r} is a name that proc3s itself uses; take another one")
+        return name
+
+    return AfterValidator(check)
 
 
 def _name_from_key(items: Any) -> Any:
@@ -154,8 +166,8 @@ class SkillSpec(Target):
     """A skill: `target(world, *args) -> telemetry` moves the world by one ground action."""
 
     kind: ClassVar[str] = "skills"
-    name: Identifier = ""
-    """Its key, where it stands in a mapping; a plugin gives it."""
+    name: Annotated[Identifier, _not_called("goal")] = ""
+    """Its key, where it stands in a mapping; a plugin gives it. `goal` is the judges' step."""
     summary: str
     """One sentence for the LLM: what the skill does with its parameters."""
     params: dict[Identifier, ParamSpec]
@@ -185,8 +197,8 @@ class ConstraintSpec(Target):
     """A constraint: `target(transition) -> margin`, negative when violated, None where it does not apply."""
 
     kind: ClassVar[str] = "constraints"
-    name: Identifier = ""
-    """Its key, where it stands in a mapping; a plugin gives it."""
+    name: Annotated[Identifier, _not_called("goal", "rehearsal", "world")] = ""
+    """Its key, where it stands in a mapping; a plugin gives it. The names of other verdicts are taken."""
     says: str
     """The sentence of a violation; `{…}` takes details that the margin carries."""
     rule: str = ""

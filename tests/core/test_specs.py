@@ -74,3 +74,12 @@ def test_a_module_that_breaks_on_import_is_a_spec_error(tmp_path, monkeypatch):
     for module in ("toy_syntax", "toy_raises"):
         with pytest.raises(SpecError, match="cannot be imported"):
             Target(target=f"{module}:name").load()
+
+
+@pytest.mark.parametrize(("old", "new"), [("  slide:", "  goal:"), ("  on_wire:", "  rehearsal:")])
+def test_names_that_verdicts_of_the_loop_have_are_taken(tmp_path, old, new):
+    path = toy_world.write(tmp_path)
+    assert old in path.read_text()
+    path.write_text(path.read_text().replace(old, new))
+    with pytest.raises(SpecError, match=rf"{path.name}:\d+: .*'{new.strip(' :')}' is a name that proc3s"):
+        load_domain(path)

@@ -197,3 +197,33 @@ def test_the_screen_is_many_times_faster_than_the_world():
     for plan in plans:
         rollouts(plan)
     assert numpy < (time.process_time() - begun) / 200 / 5
+
+
+def renamed(skills, constraints):
+    """The canvas with other names: new -> old."""
+    spec = DRAWING.spec
+    known = {"skills": (skills, spec.skills), "constraints": (constraints, spec.constraints)}
+    update = {
+        kind: {new: there[old].model_copy(update={"name": new}) for new, old in names.items()}
+        for kind, (names, there) in known.items()
+    }
+    return dataclasses.replace(DRAWING, spec=spec.model_copy(update=update))
+
+
+def test_it_knows_lines_and_rules_by_what_they_are_and_not_by_their_names():
+    circles, plans = [(50, 50, 10)], [[(10, 50, 90, 50)], [(10, 10, 110, 10)], [(10, 10, 90, 10)]]
+    problem = problem_of(circles, renamed({"stroke": "draw_line"}, {"edge": "inside", "disc": "collision"}))
+    found = screened(problem, batch := batch_of(problem, plans))
+    rollouts = Rollouts(problem)
+    assert [trial.violations for trial in map(rollouts, map(batch.plan, range(3)))] == [
+        (found[0],),
+        (found[1],),
+        (),
+    ]
+    assert [(v.constraint, v.skill) for v in found if v] == [("disc", "stroke"), ("edge", "stroke")]
+
+
+def test_rules_of_another_order_or_meaning_are_left_to_the_world():
+    for constraints in ({"collision": "collision", "inside": "inside"}, {"inside": "inside"}):
+        problem = problem_of([(50, 50, 10)], renamed({"draw_line": "draw_line"}, constraints))
+        assert screened(problem, batch_of(problem, [[(10, 50, 90, 50)]])) == [None]

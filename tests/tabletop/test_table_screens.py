@@ -147,7 +147,7 @@ def test_another_tolerance_is_kept():
 
 
 def test_a_skill_of_another_kind_is_left_to_the_world():
-    own = DOMAIN.spec.skills["pick"].model_copy(update={"target": "mine:pick"})
+    own = DOMAIN.spec.skills["pick"].model_copy(update={"target": "own_skills:grab"})
     domain = changed(skills={**DOMAIN.spec.skills, "pick": own})
     assert verdict(REJECTED["nothing there"][1], domain=domain) is None
     assert verdict([("pick", 0.0, -1.2, 0.02), *REJECTED["empty hand"][1]], domain=domain) is None

@@ -163,3 +163,22 @@ def test_a_second_pick_of_an_object_is_left_to_the_world():
     two = batch_of("object_1", np.array([good, bad]))
     two = dataclasses.replace(two, start=np.array([0, 2]))
     assert grasps(SCENE, two, YCB) == [None]
+
+
+def test_a_pick_is_known_by_its_function_and_only_as_long_as_nothing_unknown_came_before():
+    """Another skill may have tipped the object over."""
+    pick = YCB.spec.skills["pick"]
+    skills = {
+        "hoist": pick.model_copy(update={"name": "hoist"}),
+        "pick": pick.model_copy(update={"target": "proc3s_tabletop.table:Table"}),
+    }
+    domain = dataclasses.replace(YCB, spec=YCB.spec.model_copy(update={"skills": skills}))
+    bad = np.array([0.0, 0.07, 0.005, 0.0, np.pi, 0.0])
+    batch = dataclasses.replace(
+        batch_of("object_1", np.array([bad, bad])), signatures=domain.signatures(SCENE)
+    )
+    skill, start = np.array([0, 1], np.uint8), np.array([0, 2])
+    hoist = grasps(SCENE, dataclasses.replace(batch, skill=skill, start=start), domain)[0]
+    assert (hoist.constraint, hoist.step, hoist.skill) == ("grasp", 0, "hoist")
+    later = dataclasses.replace(batch, skill=skill[::-1], start=start)
+    assert grasps(SCENE, later, domain) == [None]
