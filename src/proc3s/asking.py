@@ -1,17 +1,16 @@
-"""Asking a model: patience with faults that pass, all candidates of a round, and within the budget."""
+"""Asking a model: patience with faults that pass and with refused parameters, and within the budget."""
 
-import threading
 import time
-from collections import deque
-from collections.abc import Callable, Iterable, Iterator
-from queue import SimpleQueue
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
 
 from proc3s.budget import Account
-from proc3s.errors import TRANSIENT, BudgetSpent, LLMError, SpecError, blame
-from proc3s.llms import LLM, Candidate, Completion, Effort, Price, Request, Sampling
+from proc3s.completeness import cut_off, prompt_was_cut, refuse_empty, room, uncut, whole
+from proc3s.errors import TRANSIENT, LLMError, SpecError, blame
+from proc3s.llms import LLM, Completion, Effort, Price, Request, Sampling
 from proc3s.secrets import redacted
 
 if TYPE_CHECKING:
@@ -21,7 +20,6 @@ _PATIENCE = 60.0
 _MOST_ATTEMPTS = 6
 _VARIED = 0.7
 """Temperature for several candidates: at 0 they would all be the same."""
-_SEEDS_APART = 1_000_003
 
 
 class CallOptions(BaseModel):
@@ -33,7 +31,11 @@ class CallOptions(BaseModel):
         None,
         ge=0,
         le=2,
-        description=f"sampling temperature; by default 0, or {_VARIED} for several candidates",
+        description=f"sampling temperature; by default 0, or {_VARIED} for several candidates; "
+        "`none` leaves it out",
+    )
+    seed: int | None = Field(
+        None, description="the provider's seed; by default the run's; `none` leaves it out"
     )
     max_tokens: int | None = Field(None, ge=1, description="longest answer; by default the provider's")
     reasoning_effort: Effort | None = Field(None, description="how long the model thinks, where it can")
@@ -44,6 +46,11 @@ class CallOptions(BaseModel):
     completion_price: float | None = Field(
         None, ge=0, description="US dollars for a million tokens of answer"
     )
+
+    @field_validator("temperature", "seed", "max_tokens", mode="before")
+    @classmethod
+    def _left_out(cls, given: Any) -> Any:
+        return None if given == "none" else given
 
     @model_validator(mode="after")
     def _whole_price(self) -> "CallOptions":
@@ -59,22 +66,18 @@ class CallOptions(BaseModel):
         return Price(prompt=self.prompt_price, completion=self.completion_price)
 
     def sampling(self, seed: int, candidates: int) -> Sampling:
-        """How the answers of a round are drawn; the run's seed is the provider's too."""
-        usual = 0.0 if candidates == 1 else _VARIED
-        return Sampling(
-            temperature=usual if self.temperature is None else self.temperature,
-            seed=seed,
-            n=candidates,
-            max_tokens=self.max_tokens,
-            reasoning_effort=self.reasoning_effort,
-        )
+        """How the answers of a round are drawn; what was set to None is left to the provider."""
+        usual = {"temperature": 0.0 if candidates == 1 else _VARIED, "seed": seed}
+        given = {name: getattr(self, name) for name in self.model_fields_set if name in Sampling.model_fields}
+        return Sampling.model_validate({"n": candidates, **usual, **given})
 
 
 class Patient(LLM):
     """A backend with patience: passing faults are retried, a cut answer gets twice the room once.
 
-    Only whole answers come out. `report` hears of every failed attempt that another one follows, with the
-    seconds until then; `name` is how the backend was chosen.
+    A parameter that the provider refuses is left out from then on. Only whole answers come out. `report`
+    hears of every failed attempt that another one follows, with the seconds until then; `name` is how the
+    backend was chosen.
     """
 
     def __init__(
@@ -90,21 +93,52 @@ class Patient(LLM):
         self._account = account
         self._options = options
         self._report = report
+        self._refused: set[str] = set()
         self.live = llm.live
+
+    def prepare(self) -> None:
+        """Do what takes time before the first call: it is neither the model's time nor our patience."""
+        with self._for_people():
+            self._llm.prepare()
 
     def complete(self, request: Request) -> Completion:
         """The whole candidates of an answer. Raises LLMError or BudgetSpent."""
         if not self.live:
-            return _uncut(self._once(request))
-        first = self._repeatedly(request)
-        if whole := _whole(first):
-            return whole
-        wider = request.sampling.model_copy(update={"max_tokens": 2 * _room(request, first)})
-        self._report(request, _cut_off(first), 0.0)
-        second = self._repeatedly(request.model_copy(update={"sampling": wider}))
-        if whole := _whole(second):
-            return whole.model_copy(update={"attempts": first.attempts + second.attempts})
-        raise _cut_off(second)
+            return uncut(self._once(request))
+        self.prepare()
+        first = self._accepted(request)
+        if usable := whole(first):
+            return usable
+        wider = request.sampling.model_copy(update={"max_tokens": 2 * room(request, first)})
+        self._report(request, cut_off(first), 0.0)
+        second = self._accepted(request.model_copy(update={"sampling": wider}))
+        if usable := whole(second):
+            return usable.model_copy(update={"attempts": first.attempts + second.attempts})
+        raise cut_off(second)
+
+    def _accepted(self, request: Request) -> Completion:
+        """The answer, asked for without the parameters that the provider refuses."""
+        failed = 0
+        while True:
+            asked = request.model_copy(update={"sampling": request.sampling.without(self._refused)})
+            try:
+                completion = self._repeatedly(asked)
+            except LLMError as error:
+                failed += 1
+                vain = error.parameters and not _sent(asked).intersection(error.parameters)
+                if error.fault != "parameter" or vain or failed == _MOST_ATTEMPTS:
+                    raise
+                self._refused.update(error.parameters)
+                self._report(request, error, 0.0)
+            else:
+                return self._as_asked(request, completion, failed)
+
+    def _as_asked(self, request: Request, completion: Completion, failed: int) -> Completion:
+        """The completion with the parameters that were in effect, and the calls that it took to find them."""
+        lost = {*completion.dropped, *self._refused}
+        dropped = tuple(name for name in Sampling.model_fields if name in lost & _sent(request))
+        changes = {"dropped": dropped, "sampling": request.sampling.without(dropped)}
+        return completion.model_copy(update={**changes, "attempts": completion.attempts + failed})
 
     def _repeatedly(self, request: Request) -> Completion:
         import tenacity
@@ -123,22 +157,30 @@ class Patient(LLM):
             attempts = retrying.statistics["attempt_number"]
             if attempts == 1:
                 raise
-            raise LLMError(f"{error} ({attempts} attempts)", error.fault, error.retry_after) from error
+            said = f"{error} ({attempts} attempts)"
+            raise LLMError(said, error.fault, error.retry_after, parameters=error.parameters) from error
         return completion.model_copy(update={"attempts": retrying.statistics["attempt_number"]})
 
     def _once(self, request: Request) -> Completion:
-        try:
-            with blame("llm"):
-                completion: object = self._llm.complete(request)
-        except LLMError as error:
-            raise LLMError(redacted(str(error)), error.fault, error.retry_after) from error
-        except SpecError as error:
-            raise LLMError(redacted(str(error))) from error
+        with self._for_people():
+            completion: object = self._llm.complete(request)
         if not isinstance(completion, Completion):
             raise LLMError(f"{self._name}: complete() gave a {type(completion).__name__}, no Completion")
         if not completion.candidates and not self.live:
             raise LLMError(f"{self._name}: the answer holds no candidates", "no_answer")
         return completion
+
+    @contextmanager
+    def _for_people(self) -> Iterator[None]:
+        """Whatever the backend raises becomes an LLMError without secrets; a mistake names its line."""
+        try:
+            with blame(f"llm {self._name}"):
+                yield
+        except LLMError as error:
+            said = redacted(str(error))
+            raise LLMError(said, error.fault, error.retry_after, error.usage, error.parameters) from error
+        except SpecError as error:
+            raise LLMError(redacted(str(error))) from error
 
     def _charged(self, request: Request) -> Completion:
         charged = self._account.charge(request)
@@ -148,19 +190,27 @@ class Patient(LLM):
         except LLMError as error:
             self._account.release(charged, error)
             raise
-        changes: dict[str, object] = {"model_asked": completion.model_asked or self._name}
+        changes: dict[str, object] = {
+            "model_asked": completion.model_asked or self._name,
+            "notes": (*completion.notes, *prompt_was_cut(request, completion)),
+        }
         if completion.latency is None:
             changes["latency"] = time.perf_counter() - begun
         if self._options.price is not None:
             changes["cost"] = None  # what is declared counts
         completion = self._account.settle(charged, completion.model_copy(update=changes))
-        _refuse_empty(completion)
+        refuse_empty(completion)
         return completion
 
     def _failed(self, state: "RetryCallState") -> None:
         error = state.outcome.exception() if state.outcome else None
         if isinstance(error, LLMError):
             self._report(state.args[0], error, state.upcoming_sleep)
+
+
+def _sent(request: Request) -> set[str]:
+    """Names of the parameters that are not left to the provider."""
+    return set(request.sampling.model_dump(exclude_defaults=True))
 
 
 def _passes(error: BaseException) -> bool:
@@ -175,108 +225,3 @@ def _wait(state: "RetryCallState") -> float:
     if isinstance(error, LLMError) and error.retry_after is not None:
         return max(error.retry_after, 0.0)
     return (tenacity.wait_exponential(multiplier=0.5, max=10.0) + tenacity.wait_random(0.0, 0.25))(state)
-
-
-def _refuse_empty(completion: Completion) -> None:
-    """Raises LLMError if no candidate has a text, be it a part of one."""
-    if any(candidate.text.strip() or _cut(candidate) for candidate in completion.candidates):
-        return
-    if any(candidate.finish_reason == "content_filter" for candidate in completion.candidates):
-        raise LLMError(
-            f"{completion.model}: the provider's content filter held the answer back; change the "
-            "instruction, or choose another --llm",
-            "filtered",
-        )
-    raise LLMError(f"{completion.model}: the answer is empty; choose another --llm if it stays so", "empty")
-
-
-def _cut(candidate: Candidate) -> bool:
-    return candidate.finish_reason == "length"
-
-
-def _cut_off(completion: Completion) -> LLMError:
-    tokens = completion.usage.completion_tokens
-    where = f" after {tokens:,} tokens" if tokens else ""
-    return LLMError(
-        f"{completion.model}: the answer was cut off{where}; raise -L max_tokens=N, or choose a model that "
-        "writes less",
-        "cut_off",
-    )
-
-
-def _uncut(completion: Completion) -> Completion:
-    """An answer that was there already, without candidates that are not whole. Raises LLMError."""
-    whole = tuple(candidate for candidate in completion.candidates if not _cut(candidate))
-    if not whole:
-        raise _cut_off(completion)
-    return completion.model_copy(update={"candidates": whole})
-
-
-def _whole(completion: Completion) -> Completion | None:
-    """The completion with the candidates that have a text and were not cut off; None without any."""
-    whole = tuple(c for c in completion.candidates if c.text.strip() and not _cut(c))
-    return completion.model_copy(update={"candidates": whole}) if whole else None
-
-
-def _room(request: Request, completion: Completion) -> int:
-    """Tokens that were too few."""
-    return request.sampling.max_tokens or completion.usage.completion_tokens or 4096
-
-
-def ask_all(
-    llm: LLM, request: Request, jobs: int, warn: Callable[[str], None]
-) -> Iterator[tuple[int, Completion]]:
-    """`request.sampling.n` candidates as they come, each answer with the number of its first.
-
-    What one call does not bring is asked for one by one, with at most `jobs` calls in flight. The first call
-    must succeed; where a later one fails the round goes on without that candidate, and `warn` is told.
-    """
-    first = llm.complete(request)
-    yield request.candidate, first
-    missing = range(request.candidate + len(first.candidates), request.candidate + request.sampling.n)
-    for number, outcome in _in_flight(llm, request, missing, jobs):
-        if isinstance(outcome, Completion):
-            yield number, outcome
-        elif isinstance(outcome, LLMError | BudgetSpent):
-            warn(f"candidate {number} is missing: {outcome}")
-        else:
-            raise outcome
-
-
-def _in_flight(
-    llm: LLM, request: Request, numbers: Iterable[int], jobs: int
-) -> Iterator[tuple[int, Completion | Exception]]:
-    """Answers or errors as they come. Closed early, calls that are not begun are not made.
-
-    The threads are daemons: an executor's would keep the program alive for as long as a call takes.
-    """
-    todo = deque(numbers)
-    count = len(todo)
-    done: SimpleQueue[tuple[int, Completion | Exception]] = SimpleQueue()
-
-    def work() -> None:
-        while True:
-            try:
-                number = todo.popleft()
-            except IndexError:
-                return
-            try:
-                done.put((number, llm.complete(_alone(request, number))))
-            except Exception as error:
-                done.put((number, error))
-
-    try:
-        for _ in range(min(jobs, count)):
-            threading.Thread(target=work, daemon=True).start()
-        for _ in range(count):
-            yield done.get()
-    finally:
-        todo.clear()
-
-
-def _alone(request: Request, candidate: int) -> Request:
-    """The request for one further candidate, with a seed of its own."""
-    seed = request.sampling.seed
-    apart = None if seed is None else seed + _SEEDS_APART * candidate
-    sampling = request.sampling.model_copy(update={"n": 1, "seed": apart})
-    return request.model_copy(update={"candidate": candidate, "sampling": sampling})

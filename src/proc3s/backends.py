@@ -8,7 +8,7 @@ from pydantic import BaseModel
 from proc3s.asking import CallOptions, Patient
 from proc3s.budget import Account, Budget, Ledger
 from proc3s.errors import Issue, LLMError, SpecError, UsageError, blame, did_you_mean
-from proc3s.llms import LLM, Request
+from proc3s.llms import LLM, Price, Request
 from proc3s.options import options_model, part_options
 from proc3s.registry import Registry
 from proc3s.specfile import validate
@@ -91,11 +91,19 @@ def patient(
     what a call costs.
     """
     llm, price = chosen.make(), chosen.call.price
-    if price is None and llm.live and budget.max_cost is not None:
-        price = llm.price
-        if price is None:
-            raise UsageError(
-                f"nobody knows what a call of {chosen.name} costs, so --max-cost cannot be kept; declare it "
-                "with -L prompt_price=… -L completion_price=… (US dollars for a million tokens)"
-            )
+    if llm.live and budget.max_cost is not None:
+        price = price or _known_price(chosen, llm)
+        if ledger.cost is None:
+            raise UsageError("nobody knows what the calls so far have cost, so --max-cost cannot be kept")
     return Patient(llm, chosen.name, Account(budget, price, ledger, record), chosen.call, report)
+
+
+def _known_price(chosen: Chosen, llm: LLM) -> Price:
+    with blame(f"llm {chosen.spec.name}"):
+        price: Price | None = llm.price
+    if price is None:
+        raise UsageError(
+            f"nobody knows what a call of {chosen.name} costs, so --max-cost cannot be kept; declare it "
+            "with -L prompt_price=… -L completion_price=… (US dollars for a million tokens)"
+        )
+    return price

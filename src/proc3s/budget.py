@@ -6,11 +6,27 @@ from typing import Annotated, TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from proc3s.errors import BudgetSpent, LLMError
+from proc3s.errors import BudgetSpent, Fault, LLMError
 from proc3s.llms import Completion, Price, Request, Usage, estimate_tokens
 
 N = TypeVar("N", int, float)
 Limit = Annotated[float, Field(gt=0)]
+_NOTHING = Usage(prompt_tokens=0, completion_tokens=0)
+_FREE: frozenset[Fault] = frozenset(
+    (
+        "missing_key",
+        "auth",
+        "quota",
+        "unknown_model",
+        "context",
+        "parameter",
+        "no_answer",
+        "rate_limit",
+        "connection",
+        "server",
+    )
+)
+"""Faults after which no provider asks for money: it did not come to writing an answer."""
 
 
 class Budget(BaseModel):
@@ -51,13 +67,16 @@ class Spent(BaseModel):
 
 def spent_on(completion: Completion, calls: int) -> Spent:
     """What an answer cost."""
-    usage = completion.usage
+    return _spent(completion.usage, calls, completion.cost, completion.latency)
+
+
+def _spent(usage: Usage, calls: int, cost: float | None, latency: float | None) -> Spent:
     return Spent(
         calls=calls,
         prompt_tokens=usage.prompt_tokens,
         completion_tokens=usage.completion_tokens,
-        cost=completion.cost,
-        latency=completion.latency,
+        cost=cost,
+        latency=latency,
     )
 
 
@@ -72,8 +91,8 @@ class Ledger(BaseModel):
 
     calls: int = 0
     tokens: int = 0
-    cost: float = 0.0
-    """US dollars."""
+    cost: float | None = 0.0
+    """US dollars; None once nobody knows the price of a call."""
     spent: Spent = Spent()
 
 
@@ -107,7 +126,7 @@ class Account:
             ledger = self._ledger
             self._check("--max-calls", budget.max_calls, ledger.calls, 1, "calls")
             self._check("--max-tokens", budget.max_tokens, ledger.tokens, tokens, "tokens")
-            self._check("--max-cost", budget.max_cost, ledger.cost, cost, "US dollars")
+            self._check("--max-cost", budget.max_cost, ledger.cost or 0.0, cost, "US dollars")
             self._add(1, tokens, cost, Spent())
         return prompt
 
@@ -119,31 +138,35 @@ class Account:
         completion = completion.model_copy(update={"cost": self._cost_of(completion.usage, completion)})
         prompt = charged.prompt_tokens or 0
         counted = completion.usage if _tokens(completion.usage) else _estimate(prompt, completion)
-        cost = self._cost_of(counted, completion) or 0.0
         with self._lock:
-            more = (_tokens(counted) or 0) - prompt, cost - (self._cost_of(charged) or 0.0)
-            self._add(0, *more, spent_on(completion, 1))
+            cost = self._beyond(charged, self._cost_of(counted, completion))
+            self._add(0, (_tokens(counted) or 0) - prompt, cost, spent_on(completion, 1))
             over = self._over()
             self._record(self._ledger)
         return completion.model_copy(update={"notes": (*completion.notes, *over)})
 
     def release(self, charged: Usage, error: LLMError) -> None:
-        """After a call that failed: give back the estimate, unless the provider may have worked on it."""
-        kept = error.fault in ("timeout", "broken")
-        unknown = Spent(calls=1, prompt_tokens=None, completion_tokens=None, cost=None)
+        """After a call that failed: what was counted stays, else the estimate if work may have been done."""
+        used = error.usage or (_NOTHING if error.fault in _FREE else Usage())
+        tokens, cost = _tokens(used), self._cost_of(used)
+        spent = _spent(used, 1, 0.0 if tokens == 0 else cost, 0.0)
         with self._lock:
-            if not kept:
-                self._add(0, -(_tokens(charged) or 0), -(self._cost_of(charged) or 0.0), Spent(calls=1))
+            if tokens is None:
+                self._add(0, 0, None if self._price is None else 0.0, spent)
             else:
-                self._add(0, 0, 0.0, unknown)
+                self._add(0, tokens - (_tokens(charged) or 0), self._beyond(charged, spent.cost), spent)
             self._record(self._ledger)
 
-    def _add(self, calls: int, tokens: int, cost: float, spent: Spent) -> None:
+    def _beyond(self, charged: Usage, cost: float | None) -> float | None:
+        """What a call cost more than was charged for it; None if nobody knows."""
+        return None if cost is None else cost - (self._cost_of(charged) or 0.0)
+
+    def _add(self, calls: int, tokens: int, cost: float | None, spent: Spent) -> None:
         ledger = self._ledger
         self._ledger = Ledger(
             calls=ledger.calls + calls,
             tokens=ledger.tokens + tokens,
-            cost=ledger.cost + cost,
+            cost=_sum(ledger.cost, cost),
             spent=ledger.spent.plus(spent),
         )
 
@@ -157,7 +180,7 @@ class Account:
         return [
             f"budget: {_number(spent)} {unit} are spent, more than {option} {_number(limit)}; no call follows"
             for option, limit, spent, unit in limits
-            if limit is not None and spent > limit
+            if limit is not None and spent is not None and spent > limit
         ]
 
     def _cost_of(self, usage: Usage, completion: Completion | None = None) -> float | None:

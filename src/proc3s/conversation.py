@@ -6,7 +6,7 @@ from functools import partial
 from pathlib import Path
 from typing import TypeAlias
 
-from proc3s.asking import ask_all
+from proc3s.candidates import ask_all
 from proc3s.errors import LLMError
 from proc3s.events import AnswerReceived, Emit, PromptRendered, Warned
 from proc3s.feedback import Diagnosis

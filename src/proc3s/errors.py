@@ -5,7 +5,10 @@ from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from difflib import get_close_matches
-from typing import ClassVar, Literal
+from typing import TYPE_CHECKING, ClassVar, Literal
+
+if TYPE_CHECKING:
+    from proc3s.llms import Usage
 
 Stopped = Literal["usage", "llm", "budget", "pending", "interrupted", "time"]
 
@@ -37,6 +40,7 @@ Fault = Literal[
     "server",
     "broken",  # not what the protocol promises
     "empty",
+    "parameter",  # the provider refuses a parameter; without it the same request may succeed
     "other",
 ]
 TRANSIENT: frozenset[Fault] = frozenset({"rate_limit", "timeout", "connection", "server", "broken", "empty"})
@@ -46,16 +50,27 @@ TRANSIENT: frozenset[Fault] = frozenset({"rate_limit", "timeout", "connection", 
 class LLMError(Proc3sError):
     """The language model could not be asked or did not answer (exit code 3).
 
-    `fault` decides what happens next; `retry_after` are the seconds that the provider asks to wait.
+    `fault` decides what happens next; `retry_after` are the seconds that the provider asks to wait, `usage`
+    what it counted all the same. With fault "parameter", `parameters` are the fields of `Sampling` that it
+    refuses; none if the backend words the same request otherwise from now on.
     """
 
     exit_code: ClassVar[int] = 3
     stopped: ClassVar[Stopped] = "llm"
 
-    def __init__(self, message: str, fault: Fault = "other", retry_after: float | None = None) -> None:
+    def __init__(
+        self,
+        message: str,
+        fault: Fault = "other",
+        retry_after: float | None = None,
+        usage: "Usage | None" = None,
+        parameters: Sequence[str] = (),
+    ) -> None:
         super().__init__(message)
         self.fault: Fault = fault
         self.retry_after = retry_after
+        self.usage = usage
+        self.parameters = tuple(parameters)
 
 
 class BudgetSpent(Proc3sError):

@@ -3,7 +3,7 @@
 import hashlib
 import json
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -43,6 +43,10 @@ class Sampling(_Data):
     """Longest answer."""
     reasoning_effort: Effort | None = None
 
+    def without(self, names: Iterable[str]) -> "Sampling":
+        """The same, with these parameters left to the provider."""
+        return self.model_copy(update={name: type(self).model_fields[name].default for name in names})
+
 
 class Request(_Data):
     """What is asked, and which answer of which run it is: that is how recorded answers are found."""
@@ -77,6 +81,8 @@ class Candidate(_Data):
 
     text: str
     finish_reason: str | None = "stop"
+    refusal: str | None = None
+    """What the model said instead of an answer, if it refused to give one."""
 
 
 class Completion(_Data):
@@ -99,6 +105,8 @@ class Completion(_Data):
     """Calls it took, those that failed included."""
     dropped: tuple[str, ...] = ()
     """Parameters of `Sampling` that the provider does not take."""
+    sampling: Sampling | None = None
+    """The parameters in effect: what was asked for, without what was dropped."""
     notes: tuple[str, ...] = ()
     """What a person should be told."""
 
@@ -127,6 +135,12 @@ class LLM(ABC):
     """Whether asking costs: calls, tokens, money."""
     price: Price | None = None
     """None if it is not known."""
+
+    def prepare(self) -> None:  # noqa: B027 - there is mostly nothing to prepare
+        """Do what takes time before the first call, e.g. import a library; called any number of times.
+
+        It counts neither as seconds of the model nor against the patience with it. Raises LLMError.
+        """
 
     @abstractmethod
     def complete(self, request: Request) -> Completion:

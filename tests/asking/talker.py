@@ -28,7 +28,12 @@ class Talker(LLM):
             entry = {"texts": [entry] if isinstance(entry, str) else entry}
         time.sleep(entry.pop("seconds", 0))
         if "fault" in entry:
-            raise LLMError(entry["message"], entry["fault"], entry.get("retry_after"))
+            raise LLMError(
+                entry["message"],
+                entry["fault"],
+                entry.get("retry_after"),
+                parameters=entry.get("parameters", ()),
+            )
         finish = entry.pop("finish", "stop")
         candidates = tuple(Candidate(text=text, finish_reason=finish) for text in entry.pop("texts"))
         return Completion(candidates=candidates, model="talker-1", **entry)

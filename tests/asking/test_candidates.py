@@ -3,7 +3,8 @@
 import pytest
 
 from proc3s import Message, Request, Sampling, answer
-from proc3s.asking import CallOptions, ask_all
+from proc3s.asking import CallOptions
+from proc3s.candidates import ask_all
 from proc3s.errors import LLMError
 from proc3s.llms import LLM
 

@@ -130,7 +130,7 @@ def test_what_is_not_judged_or_not_known_is_said(tmp_path):
     tables = made(filled(tmp_path / "free", free))
     assert tables["Success, %"]["cap"] == ("not judged", "")
     assert tables["Beside that"]["cap"][4] == "unknown"
-    assert tables["Beside that"]["cap"][6] == "0.0000 and unknown ones"
+    assert tables["Beside that"]["cap"][6] == "unknown"
 
 
 def test_an_episode_without_a_plan_is_a_failure_if_there_is_a_judge(tmp_path):

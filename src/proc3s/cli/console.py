@@ -66,6 +66,7 @@ class Console:
             "sampling", start=False, visible=False, rate="", reached=0, why=""
         )
         self._why: Counter[str] = Counter()
+        self._lost: set[str] = set()
 
     def __enter__(self) -> "Console":
         self._progress.start()
@@ -102,7 +103,9 @@ class Console:
         many = f", {count} candidates" if count > 1 else ""
         self._say(f"round {round_}: {_ORIGIN.get(source, 'an answer')}{whose}{many}{_cost(completion)}")
         for name in completion.dropped:
-            self._say(f"round {round_}: {completion.model} does not support {name}{_LOST.get(name, '')}")
+            if name not in self._lost:
+                self._say(f"round {round_}: {completion.model} does not support {name}{_LOST.get(name, '')}")
+        self._lost.update(completion.dropped)
         for note in completion.notes:
             self._say(f"round {round_}: {note}")
 

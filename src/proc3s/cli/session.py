@@ -238,6 +238,7 @@ class Session:
         )
         question.prompter.rehearse(self._problem)
         llm = patient(chosen, options.budget, self._past.ledger, self._charged, self._call_failed)
+        llm.prepare()
         if options.record is not None:
             llm = Recorder(llm, options.record, self._past.id)
         return lambda: ask_llm(Remembering(llm, self._past.answers), question, self._emit)

@@ -27,7 +27,8 @@ class SuiteConsole:
     def __init__(self, spec: SuiteSpec, finished: Sequence[Episode], quiet: bool) -> None:
         self._spec, self._episodes, self._quiet = spec, list(finished), quiet
         self._total = len(list(spec.cells()))
-        self._began, self._ended, self._spent = time.monotonic(), 0, 0.0
+        self._began, self._ended = time.monotonic(), 0
+        self._spent: float | None = 0.0
         self._err = Console(stderr=True, quiet=quiet, highlight=False)
         self._live = Live(console=self._err, transient=True) if sys.stderr.isatty() and not quiet else None
 
@@ -43,7 +44,7 @@ class SuiteConsole:
         if self._live:
             self._live.stop()
 
-    def add(self, outcome: Outcome, spent: float) -> None:
+    def add(self, outcome: Outcome, spent: float | None) -> None:
         """An episode has ended."""
         self._ended, self._spent = self._ended + 1, spent
         if isinstance(outcome, Episode):
@@ -69,7 +70,8 @@ class SuiteConsole:
         done, left = len(self._episodes), self._total - len(self._episodes)
         pace = (time.monotonic() - self._began) / self._ended if self._ended else None
         ahead = f"about {_duration(pace * left)} left" if pace is not None else "no time known yet"
-        return f"{done} of {self._total} episodes, {ahead}, {self._spent:.4f} $ spent"
+        spent = "unknown cost" if self._spent is None else f"{self._spent:.4f} $ spent"
+        return f"{done} of {self._total} episodes, {ahead}, {spent}"
 
     def result(self, tables: Sequence[Table], folder: Path) -> None:
         """The first tables, and where everything is."""

@@ -181,13 +181,21 @@ def _round(number: int, log: Log, executed: dict[str, Any] | None, before: Round
         number=number,
         messages=prompt.get("messages", ()),
         completions=tuple(completions.values()),
-        notes=tuple(_note(event) for event in log if event["event"] in ("warned", "call_failed")),
+        notes=tuple(note for event in log for note in _notes(event)),
         programs=tuple(_compared(program, best, old) for program in programs),
     )
 
 
-def _note(event: dict[str, Any]) -> str:
-    return str(event["text"] if event["event"] == "warned" else event["message"])
+def _notes(event: dict[str, Any]) -> list[str]:
+    """What an event tells a person beside the course of the run."""
+    match event["event"]:
+        case "warned":
+            return [event["text"]]
+        case "call_failed":
+            return [event["message"]]
+        case "answer_received":
+            return list(event["completion"].get("notes", ()))
+    return []
 
 
 def _program(

@@ -15,6 +15,7 @@ from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from proc3s.budget import Ledger
 from proc3s.runs import LOG, events_of
 from proc3s.suites.episode import Episode, episode_of
 from proc3s.suites.spec import Cell, SuiteSpec
@@ -101,12 +102,16 @@ class Runner:
         """What may still be allotted; None without a limit."""
         if self._order.max_cost is None:
             return None
-        return max(0.0, self._order.max_cost - self.spent - sum(self._allotted.values()))
+        return max(0.0, self._order.max_cost - self._known - sum(self._allotted.values()))
 
     @property
-    def spent(self) -> float:
-        """US dollars, estimates where nobody knows better."""
-        return sum(self._spent.values())
+    def spent(self) -> float | None:
+        """US dollars, estimates where nobody knows better; None if nobody knows at all."""
+        return None if None in self._spent.values() else self._known
+
+    @property
+    def _known(self) -> float:
+        return sum(cost or 0.0 for cost in self._spent.values())
 
     def _allot(self, cell: Cell) -> None:
         """A fair share of what is left, so that all together never cost more."""
@@ -160,7 +165,7 @@ class Runner:
         if self._order.llm_jobs is not None:
             yield from ("--llm-jobs", str(self._order.llm_jobs))
         if cell in self._allotted:
-            yield from ("--max-cost", repr(self._allotted[cell] + spent_on(run)))
+            yield from ("--max-cost", repr(self._allotted[cell] + (spent_on(run) or 0.0)))
         yield "--json"
 
     def _outcome(self, cell: Cell, run: Path, output: str, complaints: str, code: int) -> Outcome:
@@ -205,10 +210,10 @@ def _begun(run: Path) -> bool:
     return (run / LOG).is_file() and bool(events_of(run, "run_started"))
 
 
-def spent_on(run: Path) -> float:
-    """US dollars that the calls of a run have cost up to now; its own limit counts them, too."""
+def spent_on(run: Path) -> float | None:
+    """US dollars that the calls of a run have cost up to now, None if unknown; its limit counts them, too."""
     charged = events_of(run, "charged") if (run / LOG).is_file() else []
-    return float(charged[-1]["ledger"]["cost"]) if charged else 0.0
+    return Ledger.model_validate(charged[-1]["ledger"]).cost if charged else 0.0
 
 
 def _apart(llm: str, spec: SuiteSpec, cell: Cell) -> str:

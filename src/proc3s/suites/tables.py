@@ -139,8 +139,10 @@ def _mean_of(results: Sequence[Result], form: str, read: Read) -> str:
 
 def _cost(results: Sequence[Result]) -> str:
     costs = [r.episode.cost for r in results]
-    known = sum(cost for cost in costs if cost is not None)
-    return f"{known:.4f}" + (" and unknown ones" if None in costs else "") if results else ""
+    known = [cost for cost in costs if cost is not None]
+    if not known:
+        return "unknown" if costs else ""
+    return f"{sum(known):.4f}" + (" and unknown ones" if None in costs else "")
 
 
 def _violations(results: Results) -> Table:
