@@ -13,7 +13,7 @@ from proc3s.feedback import Diagnosis
 from proc3s.llms import LLM, Completion, Message, Request, Sampling, Source, digest
 from proc3s.problem import Problem
 from proc3s.prompts import Prompter
-from proc3s.sketch.extract import extract_program
+from proc3s.sketch.extract import Extract, extract, without_thinking
 
 
 @dataclass(frozen=True)
@@ -26,14 +26,15 @@ class Exchange:
 
 @dataclass(frozen=True)
 class Proposal:
-    """An answer, and how to get the program out of it (raises SketchError if it has none).
+    """An answer without the thoughts before it, and how to get the program out of it (raises SketchError if
+    it has none).
 
     `round` and `candidate` name the program in the log and seed its random draws.
     """
 
     answer: str
     source: Source
-    program: Callable[[], str]
+    program: Callable[[], Extract]
     round: int = 0
     candidate: int = 0
 
@@ -155,9 +156,10 @@ def ask_llm(llm: LLM, question: Question, emit: Emit) -> Propose:
 
 def proposals_of(completion: Completion, round_: int, first: int = 0) -> list[Proposal]:
     """The candidates of an answer, numbered from `first`."""
+    said = (without_thinking(candidate.text) for candidate in completion.candidates)
     return [
-        Proposal(c.text, completion.source, partial(extract_program, c.text), round_, number)
-        for number, c in enumerate(completion.candidates, start=first)
+        Proposal(text, completion.source, partial(extract, text), round_, number)
+        for number, text in enumerate(said, start=first)
     ]
 
 
@@ -170,4 +172,4 @@ def _bundled(problem: Problem) -> Path | None:
 def given_program(program: str, origin: Source = "none", round_: int = 0, candidate: int = 0) -> Propose:
     """A proposer of one program that is there already; `round_` and `candidate` say whose random draws it
     takes."""
-    return lambda _, history: [Proposal(program, origin, lambda: program, round_, candidate)]
+    return lambda _, history: [Proposal(program, origin, lambda: Extract(program), round_, candidate)]

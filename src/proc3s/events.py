@@ -116,6 +116,8 @@ class ProgramExtracted(OfProgram):
     event: Literal["program_extracted"] = "program_extracted"
     source: str
     """Its text; `program-N.py` holds the same."""
+    blocks: str = ""
+    """Which blocks of code it was taken from, where the answer holds others too."""
 
 
 class SketchLoaded(OfProgram):

@@ -116,8 +116,9 @@ def _enter(
     """A search of the program, not begun yet; or why there can be none."""
     round_, candidate = proposal.round, proposal.candidate
     try:
-        source = proposal.program()
-        emit(ProgramExtracted(round=round_, candidate=candidate, source=source))
+        found = proposal.program()
+        source = found.program
+        emit(ProgramExtracted(round=round_, candidate=candidate, source=source, blocks=found.blocks))
         setup = replace(setup, problem=replace(setup.problem, program=source))
         opened = boxes.enter_context(open_sketch(setup))
         prewarm(setup.limits, setup.locked)  # confirms the winner, or serves the next program

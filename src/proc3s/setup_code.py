@@ -69,7 +69,8 @@ def _defined(cls: type, target: str) -> str:
     body = ast.parse(source).body[0]
     assert isinstance(body, ast.ClassDef)
     first = min(node.lineno - len(node.decorator_list) for node in _functions(body, target))
-    return textwrap.indent(textwrap.dedent("\n".join(source.splitlines()[first - 1 :])), "    ") + "\n"
+    lines = source.rstrip("\n").split("\n")  # as Python counts them
+    return textwrap.indent(textwrap.dedent("\n".join(lines[first - 1 :])), "    ") + "\n"
 
 
 def _functions(body: ast.ClassDef, target: str) -> list[ast.FunctionDef]:

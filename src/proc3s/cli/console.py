@@ -15,6 +15,7 @@ from proc3s.events import (
     BatchEvaluated,
     CallFailed,
     Event,
+    ProgramExtracted,
     PromptRendered,
     RoundEnded,
     SketchLoaded,
@@ -88,6 +89,8 @@ class Console:
             self._say(f"round {event.round}: {event.text}")
         elif isinstance(event, AnswerReceived):
             self._answered(event.round, event.completion)
+        elif isinstance(event, ProgramExtracted) and event.blocks:
+            self._say(f"round {event.round}: the program is {event.blocks} in the answer")
         elif isinstance(event, SketchLoaded):
             self._loaded(event)
         elif isinstance(event, BatchEvaluated):

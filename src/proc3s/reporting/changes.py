@@ -6,6 +6,8 @@ from collections.abc import Mapping
 
 from pydantic import BaseModel, ConfigDict
 
+from proc3s.sketch.text import lines_of
+
 _DEFINITION = re.compile(r"(?:async\s+)?(?:def|class)\s+(\w+)")
 
 
@@ -39,7 +41,7 @@ class Change(BaseModel):
 
 def line_changes(old: str, new: str) -> tuple[int, int, tuple[str, ...]]:
     """Lines added, lines removed, and the functions and classes that they stand in."""
-    before, after = old.splitlines(), new.splitlines()
+    before, after = lines_of(old), lines_of(new)
     where_before, where_after = _places(before), _places(after)
     added = removed = 0
     parts: dict[str, None] = {}
@@ -68,7 +70,7 @@ def _places(lines: list[str]) -> list[str]:
 
 def unified(old: str, new: str, old_name: str, new_name: str) -> str:
     """The unified diff of two programs."""
-    lines = difflib.unified_diff(old.splitlines(), new.splitlines(), old_name, new_name, lineterm="", n=2)
+    lines = difflib.unified_diff(lines_of(old), lines_of(new), old_name, new_name, lineterm="", n=2)
     return "\n".join(lines)
 
 

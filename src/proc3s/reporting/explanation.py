@@ -9,7 +9,9 @@ from proc3s.reporting.story import Program, Round, Story
 from proc3s.reporting.words import Words
 from proc3s.sketch.text import clean
 
-_OF_PROGRAM = {"round", "candidate", "ending", "best", "parameters", "taken", "evaluations", "rejected_by"}
+_OF_PROGRAM = {
+    *("round", "candidate", "ending", "best", "blocks", "parameters", "taken", "evaluations", "rejected_by")
+}
 _LONGEST = 100_000
 """Characters of an explanation; programs may name things at any length."""
 

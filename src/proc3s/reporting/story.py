@@ -33,6 +33,8 @@ class Program(BaseModel):
     """The one of its round that got furthest; the next question shows it."""
     answer: str | None = None
     source: str | None = None
+    blocks: str = ""
+    """Which blocks of the answer it was taken from, where there was a choice."""
     parameters: dict[str, str] = {}
     """Open parameters and how each is sampled."""
     dims: dict[str, int] = {}
@@ -214,6 +216,7 @@ def _program(
         ending=_ending(ours, samples, diagnosis),
         answer=answer,
         source=extracted.get("source"),
+        blocks=extracted.get("blocks", ""),
         parameters=loaded.get("parameters", {}),
         dims=loaded.get("dims", {}),
         printed=loaded.get("log", ""),

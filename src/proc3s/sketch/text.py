@@ -27,6 +27,11 @@ def message(text: str) -> str:
     return clean(" ".join(text[: 2 * MESSAGE_LENGTH].split()), MESSAGE_LENGTH)
 
 
+def lines_of(text: str) -> list[str]:
+    """The lines of a program as Python counts them: of all that break lines elsewhere, only these do."""
+    return text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
+
+
 @dataclass(frozen=True)
 class Source:
     """Our own copy of a program's text, to quote lines from: the worker only ever says which."""
@@ -36,7 +41,7 @@ class Source:
     @cached_property
     def lines(self) -> list[str]:
         """The lines as Python counts them."""
-        return self.text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
+        return lines_of(self.text)
 
     def quote(self, line: int | None) -> tuple[int | None, str | None]:
         """The line number and its text, or (None, None) if the program has no such line."""
