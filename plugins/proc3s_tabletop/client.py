@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from proc3s import UsageError
+from proc3s_tabletop.extra import extra
 
 
 class Client:
@@ -36,11 +36,8 @@ class Client:
 
 
 def _import_pybullet() -> Any:
-    try:
-        with _quiet():
-            import pybullet  # type: ignore[import-untyped, import-not-found, unused-ignore]
-    except ModuleNotFoundError as error:
-        raise UsageError("the table-top needs PyBullet: pip install 'proc3s[tabletop]'") from error
+    with extra(), _quiet():
+        import pybullet  # type: ignore[import-untyped, import-not-found, unused-ignore]
     return pybullet
 
 

@@ -13,6 +13,8 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from proc3s_tabletop.extra import extra
+
 VARIABLE = "PROC3S_CACHE"
 """Environment variable that names another folder than the user's cache."""
 SUFFIX = ".mesh"
@@ -34,6 +36,7 @@ def folder() -> Path:
         return _instead(path, str(error.strerror))
 
 
+@extra()
 def kept(key: str, make: Callable[[], Arrays]) -> Arrays:
     """The arrays kept under a key; made, once among all processes, where they are not there whole."""
     from filelock import FileLock

@@ -3,6 +3,8 @@
 import xml.etree.ElementTree as ET
 from pathlib import Path
 
+from proc3s_tabletop.extra import extra
+
 GRIPPER_PREFIX = "gripper_"
 """Both files name a link base_link: the links of the gripper get this prefix."""
 
@@ -38,7 +40,8 @@ def _write(path: Path, parts: list[ET.Element], visuals: bool) -> None:
 
 def _parts(model: str, prefix: str) -> list[ET.Element]:
     """The links and joints of a model of airo-models, its links renamed, its meshes found from anywhere."""
-    from airo_models import get_urdf_path  # type: ignore[import-untyped, import-not-found, unused-ignore]
+    with extra():
+        from airo_models import get_urdf_path  # type: ignore[import-untyped, import-not-found, unused-ignore]
 
     path = Path(get_urdf_path(model))
     # Attributes of another simulator stand in a namespace that the file does not declare.

@@ -27,6 +27,7 @@ from proc3s.options import (
 )
 from proc3s.past import Past, Remembering, past_of
 from proc3s.planner import Outcome, plan
+from proc3s.readiness import check_parts
 from proc3s.recordings import Recorder
 from proc3s.registry import open_registry
 from proc3s.runs import RunFolder, events_of, new_folder, options_of, versions
@@ -107,7 +108,8 @@ def run_task(job: Callable[[], Job], as_json: bool) -> None:
         summary, code = Session(job(), as_json).run()
     except Proc3sError as error:
         if as_json:
-            typer.echo(Summary(error=str(error)).model_dump_json(indent=2))
+            refused = Summary(error=str(error), stopped=error.stopped)
+            typer.echo(refused.model_dump_json(indent=2))
         raise
     if as_json:
         typer.echo(summary.model_dump_json(indent=2))
@@ -186,6 +188,7 @@ class Session:
         self._registry = open_registry(self._options.plugins)
         self._problem = make_problem(self._registry, self._options, goal_needed=job.given is None)
         self._setup = make_setup(self._registry, self._options, self._problem)
+        check_parts(self._problem)
         self._past = job.past or Past()
         self._ledger = self._past.ledger
         self._recorded = {(a.round, a.candidate): a.completion for a in self._past.answers}

@@ -1,0 +1,31 @@
+"""What is certain before anybody is asked: that the parts of a run can be imported and made."""
+
+from proc3s.errors import blame
+from proc3s.problem import Problem
+from proc3s.rollouts import Rollouts
+from proc3s.specs import Target
+
+
+def check_parts(problem: Problem) -> None:
+    """Import every target of a task, make its screens, and put the scene into its worlds.
+
+    An answer costs money, and a simulator that is missing is missed at the first plan otherwise. Raises
+    SpecError or UsageError.
+    """
+    domain = problem.domain
+    domain.require(problem.task)
+    for screen in domain.screens:
+        screen.load()
+    Rollouts(problem).close()
+    _set_up(problem, "world", domain.spec.world)
+    if domain.spec.execution is not None:
+        _set_up(problem, "execution world", domain.spec.execution)
+
+
+def _set_up(problem: Problem, what: str, target: Target) -> None:
+    with blame(what):
+        world = problem.domain.make_world(target)
+        try:
+            world.reset(problem.initial)
+        finally:
+            world.close()
