@@ -3,7 +3,7 @@
 import re
 import shlex
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,21 +14,30 @@ from proc3s_replay.differences import difference
 
 _NUMBER = re.compile(r"(?<![\w.])[-+]?(\d+(\.\d*)?|\.\d+)([eE][-+]?\d+)?")
 _MOST_NAMED = 10
+_CALL_OPTIONS = {
+    "temperature": "temperature",
+    "max_tokens": "max_tokens",
+    "reasoning_effort": "reasoning_effort",
+    "n": "candidates",
+}
+"""What is compared of two ways of sampling, and what a person calls it; seeds are those of the run."""
 Take = tuple[str, int]
 
 
 @dataclass(frozen=True)
 class Lookup:
-    """Recordings at a path, and which of them answer.
+    """Recordings at a path, and which of them answer; missing ones are to be recorded at `record`.
 
     `repeat` chooses among several answers to one prompt; `lenient` takes one to a prompt with other numbers
-    in its feedback.
+    in its feedback, `stale` the latest one to any other prompt.
     """
 
     path: Path
+    record: Path
     recordings: Sequence[Recording]
     repeat: int = 0
     lenient: bool = False
+    stale: bool = False
 
     def answer(self, request: Request) -> Completion:
         """What was answered to exactly this prompt. Raises LLMError if nothing was, or to another prompt."""
@@ -41,7 +50,11 @@ class Lookup:
         blurred = _blurred(request.messages)
         if self.lenient and (alike := [r for r in keyed if _blurred(r.messages) == blurred]):
             return self._chosen(alike, request, "was given to feedback with other numbers (lenient=true)")
-        raise self._stale(keyed[-1], request)
+        if not self.stale:
+            raise self._refused(keyed[-1], request)
+        latest = [r for r in keyed if r.sha256 == keyed[-1].sha256]
+        chosen = self._chosen(latest, request, "was given to another prompt (stale=accept)")
+        return chosen.model_copy(update={"stale": True})
 
     def _chosen(self, matching: Sequence[Recording], request: Request, *notes: str) -> Completion:
         """The answer of the wanted repeat: in every round that of the same recorded run, if it has one."""
@@ -81,10 +94,11 @@ class Lookup:
             "no_answer",
         )
 
-    def _stale(self, recording: Recording, request: Request) -> LLMError:
+    def _refused(self, recording: Recording, request: Request) -> LLMError:
         return LLMError(
             f"the answer for {_what(request)} in {recording.where} was given to another prompt:\n"
             f"{difference(recording.messages, request.messages)}\n"
+            "run its program all the same, marked as stale, with -L stale=accept; or "
             "record it anew, with the other options of this run, with:\n"
             f"  {self._command(request, [recording])}",
             "no_answer",
@@ -97,7 +111,7 @@ class Lookup:
         command = ["proc3s", "run", request.task, "--method", request.method, "--seed", str(request.seed)]
         many = request.candidate + request.sampling.n
         command += ["--candidates", str(many)] if many > 1 else []
-        kept = [] if (self.path / runs.LOG).is_file() else ["--record", str(self.path)]
+        kept = [] if (self.path / runs.LOG).is_file() else ["--record", str(self.record)]
         return shlex.join([*command, "--llm", model, *kept])
 
 
@@ -129,6 +143,7 @@ def _takes(recordings: Sequence[Recording]) -> dict[str, Take]:
 def _replayed(recording: Recording, request: Request, *notes: str) -> Completion:
     """The candidates that are wanted. The figures of a call go with the first of its candidates."""
     completion = recording.completion
+    notes = (*notes, *_drawn_otherwise(recording, request))
     first = request.candidate - recording.candidate
     changes: dict[str, object] = {
         "candidates": completion.candidates[first : first + request.sampling.n],
@@ -139,6 +154,23 @@ def _replayed(recording: Recording, request: Request, *notes: str) -> Completion
     if first:
         changes |= {"usage": Usage(), "cost": None, "latency": None}
     return completion.model_copy(update=changes)
+
+
+def _drawn_otherwise(recording: Recording, request: Request) -> Iterator[str]:
+    """What to say of an answer that was drawn with other call options than those of this run."""
+    if recording.sampling is None:
+        return
+    then, now = recording.sampling.model_dump(), request.sampling.model_dump()
+    names = [n for n in _CALL_OPTIONS if then[n] != now[n] and n not in recording.completion.dropped]
+    if request.candidate:
+        names = [name for name in names if name != "n"]  # what one call did not bring was asked for alone
+    if names:
+        told = (f"{_CALL_OPTIONS[n]} {_value(then[n])}, not {_value(now[n])}" for n in names)
+        yield f"was asked for with {'; '.join(told)}"
+
+
+def _value(value: object) -> str:
+    return "as the provider has it" if value is None else str(value)
 
 
 def _blurred(messages: Sequence[Message]) -> list[tuple[str, str]]:

@@ -1,6 +1,7 @@
 """Answers that are there already: recorded ones checked against their prompts, authored ones by name."""
 
 from pathlib import Path
+from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -26,18 +27,24 @@ class Options(BaseModel):
     lenient: bool = Field(
         default=False, description="take an answer to feedback with other numbers too, and say so"
     )
+    stale: Literal["refuse", "accept"] = Field(
+        default="refuse",
+        description="what becomes of an answer to another prompt; accept: its program runs, and the run is "
+        "marked stale",
+    )
 
 
 class Replay(LLM):
     """Plays a cassette, a folder of cassettes, a run folder, or a folder of answer files.
 
-    An empty `path` stands for the answer files bundled with the domain. Raises LLMError if there is nothing
-    at the path, or it is damaged.
+    An empty `path` stands for the answer files bundled with the domain; `record` is where a person would
+    record what is missing, unless that is the path. Raises LLMError if there is nothing at the path, or it
+    is damaged.
     """
 
     live = False
 
-    def __init__(self, path: str, options: Options) -> None:
+    def __init__(self, path: str, options: Options, record: Path | None = None) -> None:
         self._path = Path(path) if path else None
         self._repeat = options.repeat
         if self._path is not None and not self._path.exists():
@@ -45,7 +52,14 @@ class Replay(LLM):
         recordings = read_recordings(self._path) if self._path else None
         self._lookup = None
         if self._path is not None and recordings is not None:
-            self._lookup = Lookup(self._path, recordings, options.repeat, options.lenient)
+            self._lookup = Lookup(
+                self._path,
+                record or self._path,
+                recordings,
+                options.repeat,
+                options.lenient,
+                options.stale == "accept",
+            )
 
     def complete(self, request: Request) -> Completion:
         """The recorded or authored answer. Raises LLMError if it is missing or stale."""

@@ -104,7 +104,7 @@ class Patient(LLM):
     def complete(self, request: Request) -> Completion:
         """The whole candidates of an answer. Raises LLMError or BudgetSpent."""
         if not self.live:
-            return uncut(self._once(request))
+            return self._told(uncut(self._once(request)))
         self.prepare()
         first = self._accepted(request)
         if usable := whole(first):
@@ -139,6 +139,16 @@ class Patient(LLM):
         dropped = tuple(name for name in Sampling.model_fields if name in lost & _sent(request))
         changes = {"dropped": dropped, "sampling": request.sampling.without(dropped)}
         return completion.model_copy(update={**changes, "attempts": completion.attempts + failed})
+
+    def _told(self, completion: Completion) -> Completion:
+        """An answer that was there already, with a note on the options that did nothing for it."""
+        idle = self._options.model_fields_set
+        if completion.source == "recorded":
+            idle = idle - Sampling.model_fields.keys()  # whoever recorded it can tell what was other then
+        if not idle:
+            return completion
+        note = f"nothing was asked, so -L {', '.join(sorted(idle))} changed nothing"
+        return completion.model_copy(update={"notes": (*completion.notes, note)})
 
     def _repeatedly(self, request: Request) -> Completion:
         import tenacity

@@ -37,6 +37,8 @@ class Proposal:
     program: Callable[[], Extract]
     round: int = 0
     candidate: int = 0
+    stale: bool = False
+    """It answers another prompt than that of the run."""
 
 
 Propose: TypeAlias = Callable[[int, Sequence[Exchange]], Sequence[Proposal]]
@@ -158,7 +160,7 @@ def proposals_of(completion: Completion, round_: int, first: int = 0) -> list[Pr
     """The candidates of an answer, numbered from `first`."""
     said = (without_thinking(candidate.text) for candidate in completion.candidates)
     return [
-        Proposal(text, completion.source, partial(extract, text), round_, number)
+        Proposal(text, completion.source, partial(extract, text), round_, number, completion.stale)
         for number, text in enumerate(said, start=first)
     ]
 
@@ -169,7 +171,9 @@ def _bundled(problem: Problem) -> Path | None:
     return folder / "answers" if folder and problem.goal == problem.task.instruction else None
 
 
-def given_program(program: str, origin: Source = "none", round_: int = 0, candidate: int = 0) -> Propose:
+def given_program(
+    program: str, origin: Source = "none", round_: int = 0, candidate: int = 0, stale: bool = False
+) -> Propose:
     """A proposer of one program that is there already; `round_` and `candidate` say whose random draws it
     takes."""
-    return lambda _, history: [Proposal(program, origin, lambda: Extract(program), round_, candidate)]
+    return lambda _, history: [Proposal(program, origin, lambda: Extract(program), round_, candidate, stale)]

@@ -101,6 +101,8 @@ class Completion(_Data):
     """Seconds that the provider took when it was asked; a replay keeps the figure of then."""
     answered: str | None = None
     """When a recorded answer was given, ISO 8601."""
+    stale: bool = False
+    """It was given to another prompt than that of the run (`-L stale=accept`)."""
     attempts: int = 1
     """Calls it took, those that failed included."""
     dropped: tuple[str, ...] = ()

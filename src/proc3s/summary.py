@@ -27,6 +27,8 @@ class Summary(BaseModel):
     """The language model as `--llm` names it; null if none was asked."""
     llm_source: Literal["live", "recorded", "authored", "manual", "none"] = "none"
     """Where the last answer is from; authored ones were written by hand."""
+    stale: bool = False
+    """An answer was given to another prompt than that of this run (`-L stale=accept`)."""
     solver: str | None = None
     """The solver."""
     preset: str | None = None
@@ -92,6 +94,7 @@ def summarize(
         method=setup.method.name,
         llm=None if sources == {"none"} else options.llm,
         llm_source=outcome.proposals[-1].source if outcome.proposals else "none",
+        stale=any(proposal.stale for proposal in outcome.proposals),
         solver=setup.solver,
         preset=setup.preset.name,
         seed=options.seed,

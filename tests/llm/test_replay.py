@@ -401,3 +401,66 @@ def test_replaying_a_recorded_replay_gives_the_same(tmp_path):
     found = [replay(tmp_path / name).complete(request()) for name in ("one.jsonl", "two.jsonl")]
     assert found[0] == found[1]
     assert found[0].source == "recorded"
+
+
+OTHER = request(task("Draw a fish."))
+
+
+def test_a_stale_answer_is_taken_when_that_is_wanted_and_marked(keep):
+    path = keep((request(), "x"))
+    assert "-L stale=accept" in refusal(path, OTHER)
+    found = replay(path, stale="accept").complete(OTHER)
+    assert (found.text, found.stale) == ("x", True)
+    assert "another prompt" in found.notes[-1]
+    fresh = replay(path, stale="accept").complete(request())
+    assert (fresh.stale, fresh.notes) == (False, ())
+
+
+def test_of_stale_answers_the_latest_prompt_counts(tmp_path):
+    record(tmp_path / "c.jsonl", (request(task("one")), "first"))
+    record(tmp_path / "c.jsonl", (request(task("two")), "second"))
+    assert replay(tmp_path / "c.jsonl", stale="accept").complete(OTHER).text == "second"
+
+
+def test_a_stale_answer_to_another_question_is_none(keep):
+    path = keep((request(), "x"))
+    assert "no answer" in refusal(path, request(seed=1), stale="accept")
+
+
+def test_a_stale_answer_stays_stale_when_it_is_recorded_again(tmp_path):
+    record(tmp_path / "c.jsonl", (request(), "x"))
+    Recorder(replay(tmp_path / "c.jsonl", stale="accept"), tmp_path / "d.jsonl").complete(OTHER)
+    assert replay(tmp_path / "d.jsonl").complete(OTHER).stale
+
+
+def drawn(**sampling):
+    one = request()
+    return one.model_copy(update={"sampling": Sampling(**sampling)})
+
+
+@pytest.mark.parametrize(
+    ("then", "now", "told"),
+    [
+        ({"temperature": 0.7}, {"temperature": 0.0}, "temperature 0.7, not 0.0"),
+        ({"max_tokens": 100}, {}, "max_tokens 100, not as the provider has it"),
+        ({}, {"reasoning_effort": "high"}, "reasoning_effort as the provider has it, not high"),
+        ({"n": 2}, {"n": 1}, "candidates 2, not 1"),
+        ({"temperature": 0.7, "n": 3}, {"temperature": 0.0, "n": 1}, "temperature 0.7, not 0.0; candidates"),
+    ],
+)
+def test_call_options_other_than_those_of_the_recording_are_said(tmp_path, then, now, told):
+    record(tmp_path / "c.jsonl", (drawn(**then), "x"))
+    (note,) = replay(tmp_path / "c.jsonl").complete(drawn(**now)).notes
+    assert told in note
+    assert replay(tmp_path / "c.jsonl").complete(drawn(**then)).notes == ()
+
+
+def test_an_option_that_the_provider_did_not_take_is_no_difference(tmp_path):
+    live = plain_answer("x", "gpt-x").model_copy(update={"dropped": ("temperature",)})
+    record(tmp_path / "c.jsonl", (drawn(temperature=0.7), live))
+    assert replay(tmp_path / "c.jsonl").complete(drawn(temperature=0.0)).notes == ()
+
+
+def test_nobody_knows_how_a_person_answered(tmp_path):
+    record(tmp_path / "c.jsonl", (drawn(temperature=0.0), plain_answer("x", "a person", "manual")))
+    assert replay(tmp_path / "c.jsonl").complete(drawn(temperature=1.0)).notes == ()

@@ -10,6 +10,7 @@ from browser import needs_chromium, visiting
 from proc3s import UsageError
 from proc3s.registry import open_registry
 from proc3s.reporting.words import folders_of
+from proc3s.suites.comparison import comparison
 from proc3s.suites.episode import Episode
 from proc3s.suites.files import FIGURES, write_files
 from proc3s.suites.results import read_results
@@ -211,3 +212,30 @@ def test_what_cannot_be_compared_is_said(folder, tmp_path, cli):
 def test_an_episode_is_kept_once(folder):
     with pytest.raises(UsageError, match="another process has finished"):
         Store(folder).add(episode(TASKS[0], "cap", 0, True))
+
+
+def test_stale_answers_have_a_table_of_their_own(tmp_path):
+    star = TASKS[0]
+    episodes = [episode(star, "cap", s, True) for s in range(5)]
+    episodes += [episode(star, "cap", s, False, stale=True) for s in range(5, 10)]
+    folder = filled(tmp_path / "suite", episodes)
+    tables = made(folder)
+    assert tables["Success, %"]["cap"][0] == "**100 [57, 100]**"
+    assert tables["Success with answers to earlier prompts, %"]["cap"][0] == "**0 [0, 43]**"
+    assert tables["Samples"]["cap"][0].startswith("12 ")
+    assert tables["Beside that"]["cap"][0] == "5"
+    document = json.loads((folder / "results.json").read_text())
+    assert any("5 episodes use answers to earlier prompts" in sentence for sentence in document["origin"])
+    assert sum(one["stale"] for one in document["episodes"]) == 5
+
+
+def test_without_stale_answers_there_is_no_such_table(folder):
+    assert not [title for title in made(folder) if "earlier" in title]
+
+
+def test_stale_answers_say_nothing_in_a_comparison(tmp_path):
+    fresh = filled(tmp_path / "a", [episode(TASKS[0], "cap", s, True) for s in range(4)])
+    stale = filled(tmp_path / "b", [episode(TASKS[0], "cap", s, False, stale=True) for s in range(4)])
+    assert made(stale)["Success, %"]["cap"][0] == ""
+    (line,) = comparison(read_results(fresh), read_results(stale)).lines
+    assert line[2] == "to earlier prompts"

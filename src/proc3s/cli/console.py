@@ -158,6 +158,8 @@ class Console:
             out.print(f"answers  {_spent(summary.usage)}")
         if summary.llm_source == "authored":
             out.print("answer   authored (written by hand, not by a model)")
+        if summary.stale:
+            out.print("answer   stale (given to another prompt than that of this run)")
         for step, action in enumerate(summary.plan or []):
             args = ", ".join(f"{v:.2f}" if isinstance(v, float) else str(v) for v in action["args"])
             out.print(escape(f"  {step:2d}  {action['skill']}({args})"))

@@ -87,6 +87,7 @@ class Given:
     origin: Source = "none"
     round: int = 0
     candidate: int = 0
+    stale: bool = False
 
 
 @dataclass(frozen=True)
@@ -134,10 +135,10 @@ def _program_of(run: Path) -> Given:
     wanted = [(e["round"], e["candidate"]) for e in events_of(run, "plan_executed")]
     wanted += [(e["round"], e["candidate"]) for e in reversed(events_of(run, "round_ended"))]
     round_, candidate = next((place for place in wanted if place in programs), list(programs)[-1])
-    sources = {e["round"]: e["completion"]["source"] for e in events_of(run, "answer_received")}
-    origin = sources.get(round_, "none")
-    source = programs[round_, candidate]
-    return Given(source, "recorded" if origin == "live" else origin, round_, candidate)
+    answers = {e["round"]: e["completion"] for e in events_of(run, "answer_received")}
+    answer: dict[str, Any] = answers.get(round_, {"source": "none"})
+    origin: Source = "recorded" if answer["source"] == "live" else answer["source"]
+    return Given(programs[round_, candidate], origin, round_, candidate, answer.get("stale", False))
 
 
 def resume_run(run: Path, task: str | None, given: dict[str, Any], as_json: bool) -> None:
@@ -251,7 +252,7 @@ class Session:
         if self._ask is not None:
             return self._ask()
         assert given is not None
-        return given_program(given.program, given.origin, given.round, given.candidate)
+        return given_program(given.program, given.origin, given.round, given.candidate, given.stale)
 
     def _call_failed(self, request: Request, error: LLMError, wait: float) -> None:
         self._emit(CallFailed(round=request.round, fault=error.fault, message=str(error), wait=wait))

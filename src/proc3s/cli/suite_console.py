@@ -90,7 +90,8 @@ def _word(outcome: Outcome) -> str:
         return f"not finished: {outcome.error}"
     state = "solved" if outcome.solved else "unsolved"
     goal = {True: ", goal reached", False: ", goal missed", None: ""}[outcome.goal_reached]
-    return f"{state}{goal}, {outcome.samples} samples"
+    stale = ", stale" if outcome.stale else ""
+    return f"{state}{goal}, {outcome.samples} samples{stale}"
 
 
 def _bold(cell: str) -> str:

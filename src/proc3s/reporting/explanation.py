@@ -56,6 +56,7 @@ def _round(round_: Round, story: Story, words: Words) -> dict[str, Any]:
     return {
         "round": round_.number,
         "origin": round_.completions[0].source if round_.completions else "none",
+        "stale": any(completion.stale for completion in round_.completions),
         "notes": list(round_.notes),
         "programs": [_program(program, story, words) for program in round_.programs],
     }

@@ -37,7 +37,8 @@ def comparison(first: Results, second: Results) -> Table:
     note = (
         "The second less the first, with 95 % intervals: "
         "Bonett and Price's for success, in points of a percent; "
-        "of a bootstrap for means. Pairs with answers written by hand say nothing of success."
+        "of a bootstrap for means. Pairs with answers written by hand, or given to earlier prompts, say "
+        "nothing of success."
     )
     return Table("Differences", head, tuple(lines), note)
 
@@ -71,12 +72,20 @@ def _success(pairs: Sequence[Pair]) -> str:
     judged = [
         (a.success, b.success)
         for a, b in pairs
-        if a.success is not None and b.success is not None and not (a.authored or b.authored)
+        if a.success is not None and b.success is not None and not (_silent(a) or _silent(b))
     ]
     if not judged:
-        return "by hand" if any(r.authored for pair in pairs for r in pair) else "not judged"
+        results = [result for pair in pairs for result in pair]
+        if any(r.episode.stale for r in results):
+            return "to earlier prompts"
+        return "by hand" if any(r.authored for r in results) else "not judged"
     share = paired_proportions(judged)
     return _shown(Estimate(*(100 * value for value in share)), "{:+.0f}")
+
+
+def _silent(result: Result) -> bool:
+    """Whether a success says nothing of a model that is asked today's prompts."""
+    return result.authored or result.episode.stale
 
 
 def _shown(estimate: Estimate, form: str) -> str:

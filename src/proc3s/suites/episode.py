@@ -29,6 +29,9 @@ class Episode(BaseModel):
     """The language model as `--llm` names it."""
     source: Literal["live", "recorded", "authored", "manual", "none"] = "none"
     """Where the answers are from; no success rate is made of authored ones."""
+    stale: bool = False
+    """An answer was given to another prompt than that of the episode; such episodes have a table of their
+    own."""
     model: str | None = None
     """The model as the provider names it."""
     answered: str | None = None
@@ -91,7 +94,10 @@ def episode_of(cell: Cell, summary: Summary, run: Path, run_dir: str, judged: bo
     return Episode(
         **cell._asdict(),
         **summary.model_dump(
-            include={"llm", "solved", "executed", "goal_reached", "goal_reason", "rounds", "samples", "error"}
+            include={
+                *("llm", "stale", "solved", "executed", "goal_reached", "goal_reason"),
+                *("rounds", "samples", "error"),
+            }
         ),
         source=summary.llm_source,
         model=first.model if first else None,

@@ -38,10 +38,19 @@ class Result:
 
 
 class Results:
-    """All results of a suite, by line (method and preset) and task."""
+    """All results of a suite, by line (method and preset) and task.
 
-    def __init__(self, spec: SuiteSpec, results: Sequence[Result], facts: Mapping[str, Any]) -> None:
-        self.spec, self.all, self.facts = spec, results, facts
+    Those of stale answers are among `all`, and by line and task in `stale` alone.
+    """
+
+    def __init__(
+        self,
+        spec: SuiteSpec,
+        results: Sequence[Result],
+        facts: Mapping[str, Any],
+        stale: bool = False,
+    ) -> None:
+        self.spec, self.all, self.facts, self._stale = spec, results, facts, stale
         self.lines = [(method, preset) for method in spec.methods for preset in spec.presets]
 
     def of(self, line: tuple[str, str], task: str | None = None) -> list[Result]:
@@ -49,8 +58,15 @@ class Results:
         return [
             r
             for r in self.all
-            if (r.episode.method, r.episode.preset) == line and task in (None, r.episode.task)
+            if (r.episode.method, r.episode.preset) == line
+            and task in (None, r.episode.task)
+            and r.episode.stale == self._stale
         ]
+
+    @property
+    def stale(self) -> "Results":
+        """The same, of answers to another prompt."""
+        return Results(self.spec, [r for r in self.all if r.episode.stale], self.facts, stale=True)
 
     def label(self, line: tuple[str, str]) -> str:
         """What a line is called."""

@@ -2,7 +2,7 @@
 
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 from proc3s.suites.results import Figures, Result, Results
@@ -10,6 +10,10 @@ from proc3s.suites.statistics import ALPHA, mean_std, wilson, worse
 
 Line: TypeAlias = tuple[str, str]
 Read: TypeAlias = Callable[[Result], float | None]
+
+
+STALE = "Success with answers to earlier prompts, %"
+"""Title of the table of episodes that count in no other one."""
 
 
 @dataclass(frozen=True)
@@ -35,6 +39,8 @@ MEANS: tuple[tuple[str, str, str, Read], ...] = (
 def tables(results: Results, figures: Figures) -> Iterator[Table]:
     """All tables, that of success first."""
     yield success_table(results, figures)
+    if results.stale.all:
+        yield replace(success_table(results.stale, {}), title=STALE)
     for quantity, title, form, read in MEANS:
         yield _means(results, figures, quantity, title, form, read)
     yield _left_out(results)
@@ -158,10 +164,13 @@ def _violations(results: Results) -> Table:
 
 def provenance(results: Results) -> list[str]:
     """Where the answers are from, and what was not as asked: a sentence each."""
-    kinds: dict[tuple[str, str], list[Result]] = {}
+    kinds: dict[tuple[str, str, bool], list[Result]] = {}
     for result in results.all:
-        kinds.setdefault((result.episode.source, result.episode.model or "no model"), []).append(result)
-    told = [_origin(source, model, some) for (source, model), some in kinds.items()]
+        one = result.episode
+        kinds.setdefault((one.source, one.model or "no model", one.stale), []).append(result)
+    told = [_origin(source, model, some) for (source, model, _), some in kinds.items()]
+    if stale := len(results.stale.all):
+        told.append(f"{stale} episodes use answers to earlier prompts: they have a table of their own.")
     lost = Counter(name for r in results.all for name in r.episode.dropped)
     told += [
         f"In {count} episodes the provider did not take the parameter `{name}`: they cannot be repeated."
