@@ -1,6 +1,6 @@
 # Wants shapely, which is optional: where it is missing, the message says what there is.
 # expect: SketchRuntimeError line 6: ModuleNotFoundError: No module named 'shapely'
-# friendly: SketchRuntimeError line 6: ImportError: 'shapely.geometry' cannot be imported here; available: __future__, abc, bisect, collections, copy
+# friendly: SketchRuntimeError line 6: ImportError: 'shapely.geometry' cannot be imported here; available: __future__, abc, bisect, cmath, collections
 # installed: plan: repeat(1)
 # answer: program
 from shapely.geometry import LineString, Point

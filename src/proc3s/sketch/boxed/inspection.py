@@ -3,6 +3,8 @@
 import inspect
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from decimal import Decimal
+from fractions import Fraction
 from itertools import islice
 from math import isfinite
 from numbers import Real
@@ -11,7 +13,7 @@ from typing import Any, cast
 import numpy as np
 
 from .encoding import Unfit, did_you_mean, near, shown
-from .lines import Lines
+from .lines import Lines, as_python_reads
 from .wire import LONGEST_NAME, MOST_PARAMETERS, MOST_PROBLEMS, MOST_VALUES
 
 _LONGEST_TEXT = 200
@@ -98,6 +100,7 @@ class Inspector:
             text = f"gen_domain returned {_described(domain)}, expected a dict of parameter names to samplers"
             self.add(text, "gen_domain")
             return parameters
+        domain = {as_python_reads(key): value for key, value in domain.items()}
         names = [parameter.name for parameter in parameters]
         for key in domain:
             if len(self.problems) >= MOST_PROBLEMS:
@@ -153,7 +156,7 @@ def _read_sampler(value: Any, parameter: Parameter, samplers: Mapping[str, Mappi
 def _bound(value: Any, key: str) -> float:
     if isinstance(value, np.ndarray) and value.size == 1:
         value = value.item()
-    if not isinstance(value, Real) or isinstance(value, bool):
+    if not isinstance(value, Real | Decimal) or isinstance(value, bool):
         raise Unfit(f"has {key} {_described(value)}, expected a number")
     try:
         number = float(value)
@@ -176,6 +179,8 @@ def _values(values: Any, key: str) -> list[Any]:
 def _value(value: Any, key: str) -> Any:
     if isinstance(value, np.generic):
         value = value.item()
+    elif isinstance(value, Fraction | Decimal):
+        value = float(value)
     if type(value) is str and len(value) > _LONGEST_TEXT:
         raise Unfit(f"has a text of more than {_LONGEST_TEXT} characters among its {key}")
     if type(value) is float and not isfinite(value):

@@ -1,8 +1,14 @@
 """Where a program defines what."""
 
 import ast
+import unicodedata
 from collections.abc import Iterator
 from typing import Any
+
+
+def as_python_reads(name: Any) -> Any:
+    """A name as Python compares it: what looks alike, such as ｘ and x, is the same (NFKC)."""
+    return unicodedata.normalize("NFKC", name) if isinstance(name, str) else name
 
 
 class Lines:
@@ -33,7 +39,7 @@ class Lines:
 
     def of_key(self, name: Any) -> int | None:
         """The line on which gen_domain gives a parameter its sampler."""
-        return self._keys.get(name, self.of("gen_domain"))
+        return self._keys.get(as_python_reads(name), self.of("gen_domain"))
 
 
 def _keys(function: ast.FunctionDef | None) -> Iterator[tuple[str, int]]:
@@ -45,7 +51,7 @@ def _keys(function: ast.FunctionDef | None) -> Iterator[tuple[str, int]]:
         else:
             found = []
             if isinstance(node, ast.keyword) and node.arg:
-                yield node.arg, node.value.lineno
+                yield as_python_reads(node.arg), node.value.lineno
         for key in found:
             if isinstance(key, ast.Constant) and isinstance(key.value, str):
-                yield key.value, key.lineno
+                yield as_python_reads(key.value), key.lineno

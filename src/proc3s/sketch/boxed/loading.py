@@ -12,8 +12,9 @@ import numpy as np
 
 from .encoding import STAND_IN, Encoder, as_list, skills_from
 from .inspection import Inspector, Parameter, Problem
-from .lines import Lines
+from .lines import Lines, as_python_reads
 from .namespace import new_module, noting_lines, program_names
+from .stubs import Ticks
 from .wire import FILENAME, MOST_PROBLEMS
 
 Row = Sequence[float]
@@ -33,12 +34,15 @@ class Program:
         self.answer: str = request["answer"]
         self.seed: int = request["seed"]
         self.encoder = Encoder(skills_from(request["signatures"]), request["actions"])
-        self._random = "rand" in request["source"]
+        self._random = "rand" in as_python_reads(request["source"])
+        self._ticks = Ticks()
         self._call: Callable[[Row], Any] | None = None
         self.parameters: list[Parameter] = []
         prelude = self._prelude_names = self._prelude(request)
         self._inspector = Inspector(Lines(self._parse(request["source"])), request["samplers"])
-        self._names = new_module("program", program_names(prelude, importable, request["friendly"]))
+        self._names = new_module(
+            "program", program_names(prelude, importable, request["friendly"], self._ticks)
+        )
         self._action = prelude["Action"]
         self._reseed(0)
         with noting_lines(self._action, FILENAME, spread=self.answer == "plan") as self._made:
@@ -60,6 +64,7 @@ class Program:
         """The plan for one row: a list if it is one at all. Raises what the program raises."""
         if self._random:
             self._reseed(sample)
+        self._ticks.readings = 0
         assert self._call is not None
         plan = self._call(row)
         return plan if type(plan) is list else as_list(plan, self.encoder.longest)

@@ -18,11 +18,24 @@ from typing import Any
 
 import numpy as np
 
+from .stubs import Ticks, sys_module, time_module
+
 IMPORTABLE = (
-    "__future__", "abc", "bisect", "collections", "copy", "dataclasses", "enum", "functools", "heapq",
-    "itertools", "json", "math", "numpy", "operator", "random", "re", "statistics", "string", "typing",
+    "__future__", "abc", "bisect", "cmath", "collections", "contextlib", "copy", "dataclasses", "decimal",
+    "enum", "fractions", "functools", "graphlib", "heapq", "itertools", "json", "math", "numbers", "numpy",
+    "operator", "pprint", "random", "re", "statistics", "string", "sys", "textwrap", "time", "types",
+    "typing", "warnings",
 )  # fmt: skip
-"""Modules that a program may import, besides shapely where it is installed."""
+"""Modules that a program may import, besides shapely where it is installed; of `sys` and `time` stand-ins."""
+_INSTEAD = {
+    "a program has no files": "csv glob io os pathlib pickle shutil tempfile",
+    "a program has no processes or threads": "asyncio concurrent multiprocessing signal subprocess threading",
+    "a program has no network": "aiohttp http httpx requests socket urllib",
+    "a program has no clock": "calendar datetime zoneinfo",
+    "print what you want to have logged": "logging traceback",
+    "numpy does arithmetic here": "jax matplotlib networkx pandas scipy shapely sklearn sympy torch",
+}
+"""What to say of modules that programs ask for and cannot have."""
 _SUBMODULES = (
     "collections.abc", "encodings.ascii", "encodings.latin_1", "encodings.unicode_escape", "encodings.utf_8",
     "inspect", "numpy.fft", "numpy.linalg", "numpy.ma", "numpy.polynomial", "numpy.random", "numpy.typing",
@@ -76,29 +89,43 @@ def new_module(name: str, names: dict[str, Any]) -> dict[str, Any]:
     return vars(module)
 
 
-def program_names(prelude: dict[str, Any], importable: tuple[str, ...], friendly: bool) -> dict[str, Any]:
+def program_names(
+    prelude: dict[str, Any], importable: tuple[str, ...], friendly: bool, ticks: Ticks
+) -> dict[str, Any]:
     """What a program may use without import; the names of the prelude win.
 
-    `friendly` leaves out builtins that cannot work here and says what can be imported.
+    `friendly` leaves out builtins that cannot work here, says what can be imported, and gives stand-ins for
+    `sys` and `time`, whose clock is `ticks`.
     """
     names: dict[str, Any] = {"np": np, "numpy": np, "math": math, "random": random}
     names |= {name: getattr(typing, name) for name in _TYPING}
     names |= {"dataclass": dataclasses.dataclass, "field": dataclasses.field}
     names |= {name: value for name, value in prelude.items() if not name.startswith("__")}
-    return names | {"__builtins__": _builtins(importable) if friendly else vars(builtins)}
+    return names | {"__builtins__": _builtins(importable, ticks) if friendly else vars(builtins)}
 
 
-def _builtins(importable: tuple[str, ...]) -> dict[str, Any]:
+def _builtins(importable: tuple[str, ...], ticks: Ticks) -> dict[str, Any]:
+    stubs = {"sys": sys_module(), "time": time_module(ticks)}
+
     def limited_import(name: str, *args: Any) -> Any:
         wanted, level = args[2:] if len(args) > 3 else ((), 0)
         # C code, such as numpy's, imports in the program's name, and gives a list
         internal = isinstance(wanted, list)
         if not internal and (level or name.partition(".")[0] not in importable):
-            raise ImportError(f"{name!r} cannot be imported here; available: {', '.join(importable)}")
+            raise ImportError(f"{name!r} cannot be imported here; available: {_available(name, importable)}")
+        if not internal and name in stubs:
+            return stubs[name]
         return builtins.__import__(name, *args)
 
     kept = {name: value for name, value in vars(builtins).items() if name not in _USELESS}
     return kept | {"__import__": limited_import}
+
+
+def _available(name: str, importable: tuple[str, ...]) -> str:
+    """What can be imported, and what to do without a module."""
+    wanted = name.partition(".")[0]
+    hint = next((f" ({says})" for says, names in _INSTEAD.items() if wanted in names.split()), "")
+    return ", ".join(importable) + hint
 
 
 class Output:
