@@ -29,6 +29,8 @@ class Stroke:
 class Canvas(World[Stroke]):
     """A static pymunk space of inflated discs; drawing a line is a query in it."""
 
+    measures = Stroke
+
     def place(self, state: State) -> None:
         """Build the space of the obstacles, unless it is there: nothing in it ever moves."""
         previous = self.state

@@ -26,6 +26,9 @@ class Shape(Protocol):
     def corners(self) -> FloatArray:
         """Points (n, 3) on its outside, metres, whose hull is its extent."""
 
+    def parts(self) -> Sequence[FloatArray]:
+        """The corners (n, 3) of convex parts that make it up, metres."""
+
     def collision(self, client: Client, folder: Path) -> int:
         """The PyBullet id of the shape; files that PyBullet reads from go to `folder`."""
 
@@ -39,6 +42,10 @@ class Box:
     def corners(self) -> FloatArray:
         """The eight corners."""
         return _box(self.size)
+
+    def parts(self) -> Sequence[FloatArray]:
+        """The box."""
+        return [self.corners()]
 
     def collision(self, client: Client, folder: Path) -> int:
         """One primitive."""
@@ -56,6 +63,10 @@ class Cylinder:
     def corners(self) -> FloatArray:
         """Points on both rims."""
         return _rings([(self.radius, -self.height / 2), (self.radius, self.height / 2)])
+
+    def parts(self) -> Sequence[FloatArray]:
+        """The cylinder, as a prism."""
+        return [self.corners()]
 
     def collision(self, client: Client, folder: Path) -> int:
         """One primitive."""
@@ -82,9 +93,9 @@ class Bowl:
 
     def collision(self, client: Client, folder: Path) -> int:
         """Convex pieces: a disc and the wedges of the wall."""
-        return compound(self.pieces(), client, folder / "bowl.obj")
+        return compound(self.parts(), client, folder / "bowl.obj")
 
-    def pieces(self) -> list[FloatArray]:
+    def parts(self) -> list[FloatArray]:
         """The corners of every convex piece, each of shape (corners, 3)."""
         turns = np.linspace(0, 2 * math.pi, self.wedges + 1)
         wall = [np.vstack([self._rib(a), self._rib(b)]) for a, b in itertools.pairwise(turns)]
@@ -133,6 +144,10 @@ class Mesh:
     def corners(self) -> FloatArray:
         """The corners of the hull of all pieces."""
         return self.hull
+
+    def parts(self) -> Sequence[FloatArray]:
+        """The pieces, without their margin."""
+        return self.pieces
 
     def collision(self, client: Client, folder: Path) -> int:
         """One hull a piece."""

@@ -6,6 +6,8 @@ from proc3s import FloatArray
 
 GAPS = (0.0, 0.020, 0.040, 0.052, 0.064, 0.086)
 """Distances of the pads, m."""
+WIDEST = 0.080
+"""What is wider between the pads is not grasped: it leaves the open fingers no 3 mm each, m (measured)."""
 PAD_BOTTOMS = (-0.0175, -0.0175, -0.0158, -0.0139, -0.0111, -0.0036)
 """Lower end of the pads above the grasp point at these distances, m: they rise as the fingers open."""
 

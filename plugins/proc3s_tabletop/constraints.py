@@ -12,6 +12,7 @@ from proc3s import Margin, Transition
 from proc3s_tabletop.recipe import LEVER, Recipe
 from proc3s_tabletop.telemetry import Displacement, Telemetry
 from proc3s_tabletop.things import TABLE
+from proc3s_tabletop.widths import TOO_WIDE
 
 Step: TypeAlias = Transition[Telemetry]
 
@@ -157,6 +158,8 @@ def _why_no_grasp(step: Step) -> str:
     meant = _meant(step)[0]
     if measured.ended == "hand":
         return f"the hand already holds {thing(step, str(measured.held))}"
+    if measured.too_wide:
+        return f"{thing(step, measured.too_wide)} {TOO_WIDE}"
     if measured.ended == "grasp" and not measured.cover:
         if measured.wanted:
             return f"the fingers miss {thing(step, measured.wanted)}"

@@ -12,6 +12,7 @@ from proc3s_tabletop.foresight import Foresight, Verdicts, skill_of
 from proc3s_tabletop.layout import Bools
 from proc3s_tabletop.lone_grasps import LoneGrasps, lone_grasps
 from proc3s_tabletop.recipe import Recipe
+from proc3s_tabletop.widths import TOO_WIDE
 from proc3s_tabletop.world import pick_object, place_object
 
 RECIPE = Recipe()
@@ -89,6 +90,9 @@ def _misfits(known: LoneGrasps, wanted: FloatArray, what: str) -> Rejected:
         f"the fingers miss {what}",
     )
     whys = [words[0 if m else 1 if share else 2] for m, share in zip(meets, cover, strict=True)]
+    bad = np.flatnonzero(meets | poor)
+    for i in bad[known.too_wide(wanted[bad])].tolist():
+        whys[i] = f"{what} {TOO_WIDE}"
     return meets | poor, margins, whys
 
 

@@ -5,12 +5,15 @@ import dataclasses
 import numpy as np
 
 from proc3s import FloatArray
+from proc3s.transforms import matrices
+from proc3s_tabletop import poses
 from proc3s_tabletop.attempt import Attempt
 from proc3s_tabletop.contacts import company, hand_clearances
 from proc3s_tabletop.motion import Line, contact, follow, line_down, put, travel
 from proc3s_tabletop.settling import compare, rest
 from proc3s_tabletop.telemetry import Clearance, least
 from proc3s_tabletop.things import Frame, Held, Things
+from proc3s_tabletop.widths import too_wide
 from proc3s_tabletop.workbench import Workbench
 
 INSIDE = 0.85
@@ -67,6 +70,19 @@ def _rays(things: Things) -> tuple[list[list[float]], list[list[float]]]:
     half = (left - right) / 2 * INSIDE
     grid = [middle + across * w + along * h for h in recipe.cover_along for w in recipe.cover_across]
     return [(x + half).tolist() for x in grid], [(x - half).tolist() for x in grid]
+
+
+def note_width(attempt: Attempt, grasp: FloatArray) -> None:
+    """Where a grasp (4, 4) failed before the fingers closed, note what is too wide for them there."""
+    measured, scene = attempt.telemetry, attempt.scene
+    if measured.attempted != "pick" or measured.ended not in ("approach", "grasp"):
+        return
+    met = measured.clearance.other if measured.ended == "approach" and measured.clearance else None
+    for name, body in scene.shapes.items():
+        there = matrices(np.array([*poses.numbers(scene.frame(name)).values()]))
+        here = np.linalg.inv(there) @ grasp
+        if met in (None, name) and too_wide(body.shape, here[None])[0]:
+            attempt.note(too_wide=name)
 
 
 def grip(attempt: Attempt, bench: Workbench, name: str, others: list[str]) -> None:

@@ -11,12 +11,17 @@ from numpy.typing import NDArray
 from proc3s import FloatArray
 from proc3s_tabletop.bodies import Body, Bowl, Box, Shape
 from proc3s_tabletop.body_specs import body_of
+from proc3s_tabletop.columns import GAPS, WIDEST
 from proc3s_tabletop.extents import rotation
+from proc3s_tabletop.motion import top_down
+from proc3s_tabletop.widths import too_wide
 
 Bools: TypeAlias = NDArray[np.bool_]
 Rows: TypeAlias = NDArray[np.intp]
 """Numbers of plans in a batch."""
 
+OPEN_HAND = (0.01, max(GAPS) / 2, 0.01)
+"""What is further from the grasp point along x, y and z is not between the pads, m."""
 UPRIGHT = 1e-3
 """A body that leans less stands upright, rad."""
 
@@ -36,6 +41,19 @@ class Solids:
     inner: FloatArray
     flat: Bools
     bowls: Mapping[int, Bowl]
+    shapes: tuple[Shape, ...]
+    turns: FloatArray
+    """Their rotations (n, 3, 3)."""
+
+    def too_wide(self, k: int, centres: FloatArray, at: FloatArray) -> Bools:
+        """Whether body k, its middle at `centres` (rows, 3), is too wide for the hand at `at` (rows, 3)."""
+        away = at - centres
+        wide: Bools = (np.abs(away) < self.outer[k] + OPEN_HAND).all(axis=1) & (2 * self.outer[k, 1] > WIDEST)
+        grasps = np.repeat(top_down(0.0, 0.0, 0.0)[None], np.count_nonzero(wide), axis=0)
+        grasps[:, :3, :3] = self.turns[k].T @ grasps[:, :3, :3]
+        grasps[:, :3, 3] = away[wide] @ self.turns[k]
+        wide[wide] = too_wide(self.shapes[k], grasps)
+        return wide
 
 
 def solids(objects: Mapping[str, Any], bodies: Mapping[str, Body]) -> Solids:
@@ -51,6 +69,8 @@ def solids(objects: Mapping[str, Any], bodies: Mapping[str, Body]) -> Solids:
         outer=np.array([np.abs(s.corners() @ turn.T).max(axis=0) for s, turn in turned]).reshape(-1, 3),
         inner=inner,
         flat=inner[:, 0] > 0,
+        shapes=tuple(shapes),
+        turns=np.array(turns).reshape(-1, 3, 3),
         bowls={k: s for k, (s, turn) in enumerate(turned) if isinstance(s, Bowl) and _stands(turn)},
     )
 

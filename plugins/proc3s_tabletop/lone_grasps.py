@@ -18,6 +18,7 @@ from proc3s_tabletop.motion import tool_poses
 from proc3s_tabletop.recipe import Recipe
 from proc3s_tabletop.things import Frame, Things
 from proc3s_tabletop.verdicts import Grasp, Verdict, Verdicts
+from proc3s_tabletop.widths import Bools, too_wide
 from proc3s_tabletop.workbench import Workbench
 
 FORMAT = 1
@@ -79,6 +80,10 @@ class LoneGrasps:
         new = [k for k in dict.fromkeys(keys) if k in recurring() and self._verdict(k).holds is None]
         self._learn({key: self._verdict(key)._replace(holds=self._lift(key)) for key in new})
         return np.array([self._verdict(key).holds is not False for key in keys], float)
+
+    def too_wide(self, grasps: FloatArray) -> Bools:
+        """Whether the body is too wide for the hand there: shape (n, 6) to (n,)."""
+        return too_wide(self._body.shape, matrices(grasps))
 
     def _verdict(self, key: Grasp) -> Verdict:
         return self._known.get(key, Verdict(0.0, 1.0))

@@ -10,6 +10,7 @@ from proc3s_tabletop.grasping import INSIDE
 from proc3s_tabletop.layout import Bools, Layout, Rows
 from proc3s_tabletop.recipe import Recipe
 from proc3s_tabletop.things import TABLE
+from proc3s_tabletop.widths import TOO_WIDE
 
 RECIPE = Recipe()
 OPEN = max(GAPS)
@@ -53,18 +54,23 @@ def _free_way_down(foresight: Foresight, lie: Layout, step: int, rows: Rows, at:
         return ~met
     which = depth[met].argmax(axis=1)
     away = np.linalg.norm(lie.centres[rows[met]] - at[met, None], axis=2)
-    own = which == away.argmin(axis=1)
+    own, hit = which == away.argmin(axis=1), rows[met]
     margins, names = -depth[met].max(axis=1), [lie.bodies.names[k] for k in which]
+    wide = _too_wide(lie, hit, at[met])[which, np.arange(len(hit))]
 
     def bad_grasp(i: int) -> dict[str, str]:
-        name = [n for n, mine in zip(names, own, strict=True) if mine][i]
-        return {"why": f"the fingers come down on {foresight.called(name)} instead of around it"}
+        k = np.flatnonzero(own)[i]
+        what = foresight.called(names[k])
+        return {
+            "why": f"{what} {TOO_WIDE}"
+            if wide[k]
+            else f"the fingers come down on {what} instead of around it"
+        }
 
     def contact(i: int) -> dict[str, str]:
         name = [n for n, mine in zip(names, own, strict=True) if not mine][i]
         return touching(foresight, foresight.called(HAND), name, "approach")
 
-    hit = rows[met]
     foresight.reject(step, grasp, hit[own], margins[own], bad_grasp)
     foresight.reject(step, collision, hit[~own], margins[~own], contact)
     return ~met
@@ -82,6 +88,13 @@ def _free_table(foresight: Foresight, lie: Layout, step: int, rows: Rows, at: Fl
         lambda i: touching(foresight, foresight.called(HAND), TABLE, "approach"),
     )
     return ~low
+
+
+def _too_wide(lie: Layout, rows: Rows, at: FloatArray) -> Bools:
+    """Which bodies are too wide for the hand at points (rows, 3): shape (n, rows)."""
+    count = len(lie.bodies.names)
+    found = [lie.bodies.too_wide(k, lie.centres[rows, k], at) for k in range(count)]
+    return np.array(found, bool).reshape(count, len(rows))
 
 
 def touching(foresight: Foresight, body: str, other: str, stage: str) -> dict[str, str]:
@@ -124,11 +137,13 @@ def _reject_grasps(
     """Too little between the fingers, or nothing at all."""
     away = np.linalg.norm(lie.centres[rows] - at[:, None], axis=2)
     names, least = lie.bodies.names, RECIPE.min_cover * PAD_WIDTH
-    best = cover.max(axis=1, initial=0.0)
+    best, wide = cover.max(axis=1, initial=0.0), _too_wide(lie, rows, at)
     margins = np.where(best > 0, (best - RECIPE.min_cover) * PAD_WIDTH, -away.min(axis=1, initial=least))
     margins = np.minimum(margins, -UNMEASURED)
 
     def why(i: int) -> dict[str, str]:
+        if wide[:, i].any():
+            return {"why": f"{foresight.called(names[int(wide[:, i].argmax())])} {TOO_WIDE}"}
         if best[i] > 0:
             some = foresight.called(names[int(cover[i].argmax())])
             return {"why": f"the fingers get too little of {some} between them"}

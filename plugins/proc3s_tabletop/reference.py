@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from proc3s import FloatArray
 from proc3s_tabletop.attempt import Attempt, Stopped
 from proc3s_tabletop.bodies import Body
-from proc3s_tabletop.grasping import pick
+from proc3s_tabletop.grasping import note_width, pick
 from proc3s_tabletop.placing import place
 from proc3s_tabletop.recipe import SAME_GRASP, Recipe
 from proc3s_tabletop.settling import note_bounds
@@ -54,6 +54,7 @@ class Reference(Table):
         try:
             action(attempt, grasp)
         except Stopped:
+            note_width(attempt, grasp)
             note_bounds(attempt, self.snapshot, x, y)
             return attempt.telemetry
         self.snapshot = self.scene.save().after(self.snapshot)

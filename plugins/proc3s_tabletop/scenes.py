@@ -138,8 +138,10 @@ def _require_room(placed: Sequence[Placed], rules: Rules) -> None:
     """Begin again where two objects touch sideways or sit in one another."""
     spaces = [extent(rules.bodies[p.entry.category], p.pose) for p in placed]
     for (i, a), (k, b) in itertools.combinations(enumerate(spaces), 2):
-        if min(a.top, b.top) - max(a.bottom, b.bottom) > TOUCHING and gap(a.outline, b.outline) < TOUCHING:
-            raise _Jammed(f"object_{i} and object_{k} are in one another's place")
+        upright, sideways = min(a.top, b.top) - max(a.bottom, b.bottom), -gap(a.outline, b.outline)
+        if upright > TOUCHING and sideways > -TOUCHING:
+            depth = 1000 * max(0.0, min(upright, sideways))
+            raise _Jammed(f"object_{i} and object_{k} are in one another's place, by {depth:.0f} mm")
 
 
 def _place(

@@ -60,12 +60,12 @@ def note_bounds(attempt: Attempt, snapshot: Snapshot, x: float, y: float) -> Non
     """Note what is nearest to the edge of the table, or furthest over it, once the action is over."""
     positions = {"target": (x, y)}
     positions |= {name: frame.position[:2] for name, frame in snapshot.loose().items()}
-    inside = {name: _inside(*position) for name, position in positions.items()}
+    inside = {name: inside_table(*position) for name, position in positions.items()}
     name = min(inside, key=lambda n: inside[n])
     attempt.note(bounds=Bound(inside[name], name))
 
 
-def _inside(x: float, y: float) -> float:
+def inside_table(x: float, y: float) -> float:
     """Signed distance of a point to the nearest edge of the table."""
     (x0, x1), (y0, y1) = TABLE_BOUNDS
     return min(x - x0, x1 - x, y - y0, y1 - y)

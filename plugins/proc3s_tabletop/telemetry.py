@@ -87,6 +87,8 @@ class Telemetry:
     """The smallest clearance at grasp, set-down and opening; where the action ended in contact, that."""
     cover: float | None = None
     """Share of a grid of rays between the pads that meet the target, 0 to 1."""
+    too_wide: str | None = None
+    """An object that is wider than the hand can take where it was to be grasped."""
     finger_gap: float | None = None
     """Distance of the closed pads."""
     grip_force: float | None = None

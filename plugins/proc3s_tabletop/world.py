@@ -32,6 +32,8 @@ class TabletopWorld(World[Telemetry]):
     along y. The simulator starts with the first state, and again when a state has other objects.
     """
 
+    measures = Telemetry
+
     def __init__(
         self,
         domain: "Domain",
@@ -73,12 +75,22 @@ class TabletopWorld(World[Telemetry]):
             raise RuntimeError("reset the world to a state first")
         return self._table
 
+    def flaws(self, state: State) -> list[str]:
+        """Objects beside the table, in it, or in one another."""
+        from proc3s_tabletop.beginning import flaws_of
+
+        objects: Mapping[str, Any] = state.objects  # type: ignore[attr-defined]
+        return flaws_of(objects, *self._placed(objects))
+
+    def _placed(self, objects: Mapping[str, Any]) -> tuple[dict[str, Body], dict[str, Frame]]:
+        """The bodies of objects, and where they are."""
+        bodies = {name: body_of(self.categories, name, thing.category) for name, thing in objects.items()}
+        return bodies, {name: poses.frame(thing.pose) for name, thing in objects.items()}
+
     def place(self, state: State) -> None:
         """Put a body where every object is, the hand empty and above. Raises SpecError on a strange one."""
         super().place(state)
-        objects: dict[str, Any] = self.state.objects
-        bodies = {name: body_of(self.categories, name, thing.category) for name, thing in objects.items()}
-        frames = {name: poses.frame(thing.pose) for name, thing in objects.items()}
+        bodies, frames = self._placed(self.state.objects)
         if self._table is None or bodies != self._bodies:
             self.close()
             self._table, self._bodies = self.make_table(bodies, frames), bodies

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from proc3s.domain import Domain
-from proc3s.errors import Issue, SpecError, blame
+from proc3s.errors import Issue, SpecError, blame, not_wanted
 from proc3s.specs import ConstraintSpec
 from proc3s.world import Transition
 
@@ -74,16 +74,17 @@ def _margin(name: str, value: object) -> Margin | None:
         value = 1.0 if value else -1.0
     if isinstance(value, Real):
         value = Margin(float(value))
-    if isinstance(value, Margin) and isinstance(value.value, Real) and not math.isnan(value.value):
-        return Margin(float(value.value), value.details)
-    message = f"returned {value!r}, not a margin (a number, a Margin, a bool or None)"
-    raise SpecError([Issue(f"constraint {name}", "target", message)])
+    if isinstance(value, Margin) and isinstance(value.value, Real) and isinstance(value.details, Mapping):
+        number = float(value.value)
+        if not math.isnan(number):
+            return Margin(number, value.details)
+    raise not_wanted(f"constraint {name}", value, "a margin (a number, a Margin, a bool or None)")
 
 
 def sentence(spec: ConstraintSpec, details: Mapping[str, str]) -> str:
     """The text of a violation of a constraint. Raises SpecError if a placeholder is left without a detail."""
     try:
         return spec.says.format_map(details)
-    except (KeyError, ValueError, IndexError, AttributeError) as error:
+    except (KeyError, ValueError, IndexError, AttributeError, TypeError) as error:
         message = f"the margin carries no detail {error} ({', '.join(details) or 'it carries none'})"
         raise SpecError([Issue(f"constraint {spec.name}", "says", message)]) from error

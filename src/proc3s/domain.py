@@ -1,7 +1,8 @@
 """A domain at work: its spec with what plugins attach, and its targets, imported when first used."""
 
 import inspect
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import closing
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, get_type_hints
@@ -9,7 +10,7 @@ from typing import TYPE_CHECKING, Any, get_type_hints
 import numpy as np
 from pydantic import TypeAdapter, ValidationError
 
-from proc3s.errors import Issue, SpecError, UsageError, blame, did_you_mean
+from proc3s.errors import Issue, SpecError, UsageError, blame, did_you_mean, not_wanted
 from proc3s.specs import DomainSpec, ParamSpec, SamplerSpec, ScreenSpec, Target, TaskSpec
 from proc3s.state import Parameter, Signature, State, StateModel
 
@@ -91,13 +92,37 @@ class Domain:
                 data = make(rng, **args)
             except ValueError as error:
                 raise UsageError(f"the scene of {task.name}: {error}") from error
+        if not isinstance(data, Mapping | State):
+            raise not_wanted(
+                f"scene of {task.name} ({task.initial.target})",
+                data,
+                f"a dict of the fields of a {self.spec.state}",
+            )
+        where = f"scene of {task.name} ({task.initial.target})"
         try:
-            return self.states.parse(data)
+            state = self.states.parse(data)
         except ValidationError as error:
-            where = f"{task.initial.target}"
             raise SpecError(
                 [Issue(where, ".".join(map(str, d["loc"])), d["msg"]) for d in error.errors()]
             ) from error
+        if issues := list(self._misnamed(state, where)):
+            raise SpecError(issues)
+        return state
+
+    def _misnamed(self, state: State, where: str) -> Iterator[Issue]:
+        """Objects of a state that a program could not name, or not without naming another one."""
+        names = self.object_names(state)
+        for k, name in enumerate(names):
+            if not isinstance(name, str) or not name.strip():
+                yield Issue(where, f"{self.spec.objects}.{k}", f"{name!r} is no name of an object")
+            elif (first := names.index(name)) < k:
+                text = f"{name!r} is the name of {self.spec.objects}.{first}, too"
+                yield Issue(where, f"{self.spec.objects}.{k}", text)
+
+    def flaws(self, state: State) -> Sequence[str]:
+        """Why no plan can begin from a state, as the world sees it, a sentence each."""
+        with closing(self.make_world()) as world, blame(f"world {self.spec.world.target}"):
+            return list(world.flaws(state))
 
     def object_names(self, state: State) -> tuple[str, ...]:
         """Names of the objects of a state, in its order."""

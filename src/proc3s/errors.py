@@ -1,5 +1,6 @@
 """Errors meant for people: a message without a traceback, and the exit code that goes with it."""
 
+import reprlib
 import traceback
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
@@ -138,6 +139,11 @@ def blame(field: str, *passing: type[BaseException]) -> Iterator[None]:
         raise
     except BaseException as error:
         raise SpecError([Issue(_raised_at(error), field, f"raised {worded(error)}")]) from error
+
+
+def not_wanted(part: str, value: object, wanted: str) -> SpecError:
+    """The error of a plugin's function that returned something else than it must."""
+    return SpecError([Issue(part, "target", f"returned {reprlib.repr(value)}, not {wanted}")])
 
 
 def worded(error: BaseException) -> str:

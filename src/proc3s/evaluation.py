@@ -13,7 +13,7 @@ import numpy as np
 from proc3s.audit import Audit
 from proc3s.clock import Clock
 from proc3s.constraints import Violation
-from proc3s.errors import Issue, SpecError, blame
+from proc3s.errors import Issue, SpecError, blame, not_wanted
 from proc3s.executors import Executor
 from proc3s.problem import Problem, Trial
 from proc3s.samplers import Space
@@ -189,8 +189,10 @@ class BatchScreen:
     def __call__(self, batch: PlanBatch) -> Sequence[Violation | None]:
         """A violation or None for every plan. Raises SpecError for anything else."""
         with blame(f"screen {self.name}"):
-            verdicts: Sequence[Violation | None] = self._check(self._initial, batch, **self._args)
-            if len(verdicts) == len(batch):
-                return verdicts
-        message = f"gave {len(verdicts)} verdicts on {len(batch)} plans"
-        raise SpecError([Issue(f"screen {self.name}", "target", message)])
+            verdicts = self._check(self._initial, batch, **self._args)
+        part = f"screen {self.name}"
+        if not isinstance(verdicts, Sequence) or not all(isinstance(v, Violation | None) for v in verdicts):
+            raise not_wanted(part, verdicts, "a list with a Violation or None for every plan")
+        if len(verdicts) != len(batch):
+            raise SpecError([Issue(part, "target", f"gave {len(verdicts)} verdicts on {len(batch)} plans")])
+        return verdicts

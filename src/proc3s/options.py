@@ -137,6 +137,8 @@ def make_setup(registry: Registry, options: RunOptions, problem: Problem) -> Set
         executor: Executor = make_executor(jobs=options.jobs)
     problem.domain.require(problem.task)
     limits, clock_limits = make_limits(options.limits)
+    if flaws := problem.domain.flaws(problem.initial):
+        raise UsageError(f"the scene of {problem.name}, seed {problem.seed}: {'; '.join(flaws)}")
     if problem.robust and problem.domain.spec.world.load().disturb is World.disturb:
         raise UsageError(f"--robust: nothing disturbs the world of {problem.domain.spec.name}")
 

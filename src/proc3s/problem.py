@@ -9,10 +9,12 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Literal
 
+import numpy as np
+
 from proc3s.constraints import Violation, check
 from proc3s.domain import Domain
-from proc3s.errors import blame
-from proc3s.specs import ScreenSpec, TaskSpec
+from proc3s.errors import blame, not_wanted
+from proc3s.specs import ScreenSpec, Target, TaskSpec
 from proc3s.state import Action, Plan, State
 from proc3s.world import Score, World
 
@@ -215,10 +217,23 @@ def judge(problem: Problem, final: State, plan: Plan) -> tuple[Score | None, str
     """All judges of the task must be satisfied; the reason of the first that is not, else of all."""
     if problem.goal != problem.task.instruction:
         return None, "nobody judges an instruction of your own"
-    with blame(f"judge of {problem.name}"):
-        scores = [target.load()(final, plan, **target.args) for target in problem.task.judge]
+    scores = [_score(problem, target, final, plan) for target in problem.task.judge]
     if not scores:
         return None, "the task has no judge"
     missed = [score for score in scores if not score.reached]
     reason = missed[0].reason if missed else "; ".join(score.reason for score in scores)
     return Score(not missed, reason), reason
+
+
+def _score(problem: Problem, target: Target, final: State, plan: Plan) -> Score:
+    """What one judge says. Raises SpecError if that is no score."""
+    part = f"judge {target.target} of {problem.name}"
+    with blame(part):
+        score = target.load()(final, plan, **target.args)
+    if (
+        isinstance(score, Score)
+        and isinstance(score.reached, bool | np.bool_)
+        and isinstance(score.reason, str)
+    ):
+        return Score(bool(score.reached), score.reason)
+    raise not_wanted(part, score, "a Score of a bool and a reason in words")

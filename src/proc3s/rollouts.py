@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from proc3s.errors import blame
+from proc3s.constraints import Violation
+from proc3s.errors import blame, not_wanted
 from proc3s.problem import Prefixes, Problem, Trial, rollout
 from proc3s.state import Plan
 
@@ -39,6 +40,8 @@ class Rollouts:
         for name, screen in self._screens:
             with blame(f"screen {name}"):
                 violation = screen.check(self._problem.initial, plan)
+            if not isinstance(violation, Violation | None):
+                raise not_wanted(f"screen {name}", violation, "a Violation or None")
             if violation is not None:
                 return Trial(plan, (violation,), violation.step, screen=name)
         with blame("world"):

@@ -190,7 +190,7 @@ class StateModel:
             self.types[name] = self._make(name, types[name].fields)
         self._adapter: TypeAdapter[State] = TypeAdapter(self.types[root])
 
-    def parse(self, data: Mapping[str, Any]) -> State:
+    def parse(self, data: Mapping[str, Any] | State) -> State:
         """The state that plain data describes. Raises `pydantic.ValidationError`."""
         return self._adapter.validate_python(data)
 

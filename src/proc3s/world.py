@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
 import numpy as np
 
-from proc3s.errors import UsageError, blame
+from proc3s.errors import UsageError, blame, not_wanted
 from proc3s.specs import ScreenSpec
 from proc3s.state import Action, Plan, State
 
@@ -51,6 +51,9 @@ class World(Generic[T]):
     screens: ClassVar[tuple[ScreenSpec, ...]] = ()
     """Cheap tests that come with this world, for every domain in which it accepts plans."""
 
+    measures: ClassVar[type[Any]] = object
+    """What skills must return; by default they may return anything."""
+
     def __init__(self, domain: "Domain") -> None:
         self.domain = domain
         self.state: Any = None
@@ -75,7 +78,9 @@ class World(Generic[T]):
         self.load(self._snapshot)
         before = self.observe()
         with blame(f"skill {action.skill}"):
-            telemetry = self.domain.skill(action.skill)(self, *action.args)
+            telemetry: Any = self.domain.skill(action.skill)(self, *action.args)
+        if not isinstance(telemetry, self.measures):
+            raise not_wanted(f"skill {action.skill}", telemetry, f"a {self.measures.__name__}")
         self._snapshot = self.save()
         return Transition(before, action, self.observe(), telemetry)
 
@@ -87,6 +92,10 @@ class World(Generic[T]):
         """
         if rng is not None:
             raise UsageError(f"the world of {self.domain.spec.name} has no disturbances to rehearse with")
+
+    def flaws(self, state: State) -> Sequence[str]:
+        """Why no plan can begin from a state, a sentence each; asked before any plan is."""
+        return ()
 
     def place(self, state: State) -> None:
         """Build everything that the state describes."""

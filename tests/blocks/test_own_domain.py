@@ -94,3 +94,22 @@ def test_a_mesh_of_ones_own_lies_beside_the_spec(cans, cli, here):
     assert (summary["solved"], summary["goal_reached"]) == (True, True), summary
     (here / "meshes/can.stl").unlink()
     assert "there is no file" in cli(*cans[:-1], "again").json["error"]
+
+
+@pytest.mark.parametrize("place", ["[0.0, -0.9]", "[0.0, -0.6, -0.01]"])
+def test_a_scene_that_no_plan_can_begin_from_is_refused_before_anybody_is_asked(cans, cli, here, place):
+    (here / "domain.yaml").write_text(DOMAIN.replace("[0.0, -0.6]", place))
+    (here / "stub.json").write_text('{"answers": ["no program"]}')
+    command = ("run", "cans/serve", "--llm", "stub:stub.json", "--plugin", "cans.py", "--json")
+    for result in (cli(*cans), cli(*command, "--out", "asked")):
+        assert result.code == 2
+        said = "100 mm" if "0.9" in place else "15 mm deep in the table"
+        assert "the scene of cans/serve, seed 0: object_0 (the tray) " in result.json["error"]
+        assert said in result.json["error"]
+        assert (
+            result.json["samples"],
+            result.json["proposals" if "proposals" in result.json else "rounds"],
+        ) == (0, 0)
+    checked = cli("check", "cans", "--plugin", "cans.py")
+    assert checked.code == 2
+    assert said in checked.stdout

@@ -1,7 +1,5 @@
 """Skills of a plugin: what the toolbox does, under other names and with other parameters."""
 
-import numpy as np
-
 from proc3s_tabletop.world import pick, place
 
 
@@ -19,9 +17,3 @@ def grab_beside(world, o, gap):
     """Takes an object by name, so much off its middle along x."""
     x, y, z = dict(world.table.snapshot.frames)[o].position
     return world.table.pick(x + gap, y, z)
-
-
-def tip_over(world, o):
-    """Measures nothing that the toolbox knows."""
-    world.table.put(dict(world.table.snapshot.frames))
-    return np.zeros(3)

@@ -33,13 +33,16 @@ def targets(subject: Subject) -> Iterator[Fault]:
 
 
 def scenes(subject: Subject) -> Iterator[Fault]:
-    """Scenes repeat by their seed, differ by it, and come in time."""
+    """Scenes repeat by their seed, differ by it, come in time, and plans can begin from them."""
     for name, task in subject.spec.tasks.items():
         began = time.monotonic()
         drawn = [subject.domain.scene(task, seed) for seed in range(SEEDS)]
         slow = (time.monotonic() - began) / SEEDS
         if slow > SLOW:
             yield Fault(f"a scene of {name} takes {slow:.0f} s", task.initial.target)
+        for seed, state in enumerate(drawn):
+            for flaw in subject.domain.flaws(state):
+                yield Fault(f"the scene of {name}, seed {seed}: {flaw}", task.initial.target)
         if drawn != [subject.domain.scene(task, seed) for seed in range(SEEDS)]:
             yield Fault(f"the scene of {name} is another one when it is drawn again", task.initial.target)
         if all(scene == drawn[0] for scene in drawn):
