@@ -48,7 +48,10 @@ def kept(key: str, make: Callable[[], Arrays]) -> Arrays:
     with FileLock(where / (key + ".lock")):
         if (found := _read(path)) is None:
             found = make()
-            _write(path, found)
+            try:
+                _write(path, found)
+            except OSError as error:
+                warnings.warn(f"{path} is not kept, and made again next time: {error.strerror}", stacklevel=2)
     return found
 
 

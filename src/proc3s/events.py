@@ -247,6 +247,14 @@ class PlanExecuted(OfProgram):
     """The judge's verdict on the state that the world which accepted the plan ends in."""
 
 
+class Unwritten(Event):
+    """Something could not be written, e.g. since the disk is full; the run goes on without it."""
+
+    event: Literal["unwritten"] = "unwritten"
+    text: str
+    """What, where and why."""
+
+
 class RunEnded(Event):
     """The end of a run with its summary."""
 

@@ -1,16 +1,18 @@
 """Execution: the plan is carried out open loop, and the judges look at the result."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 from proc3s.constraints import Violation
-from proc3s.errors import blame
-from proc3s.events import Emit, PlanExecuted
+from proc3s.errors import Proc3sError, blame
+from proc3s.events import Emit, PlanExecuted, Unwritten
 from proc3s.problem import Problem, carry_out, judge
 from proc3s.specs import Target
 from proc3s.state import Plan, State
-from proc3s.world import Score
+from proc3s.world import Score, World
 
 
 @dataclass(frozen=True)
@@ -43,11 +45,12 @@ def execute(
     A fallback that turns out to violate nothing is a solution.
     """
     spec = problem.domain.spec
-    violations, final = _carry_out(problem, plan, spec.world, None if spec.execution else picture)
+    draw = partial(_draw, plan, picture, emit)
+    violations, final = _carry_out(problem, plan, spec.world, None if spec.execution else draw)
     expected, reason = judge(problem, final, plan)
     score = expected
     if spec.execution:
-        _, final = _carry_out(problem, plan, spec.execution, picture)
+        _, final = _carry_out(problem, plan, spec.execution, draw)
         score, reason = judge(problem, final, plan)
     if not violations:
         executed = "solution"
@@ -57,18 +60,31 @@ def execute(
 
 
 def _carry_out(
-    problem: Problem, plan: Plan, target: Target, picture: Path | None
+    problem: Problem, plan: Plan, target: Target, draw: Callable[[World[Any]], None] | None
 ) -> tuple[tuple[Violation, ...], State]:
     """What the plan violates in a world, and the state it ends in."""
     world = problem.domain.make_world(target)
     try:
         with blame("world"):
             trial, final = carry_out(world, problem, plan, stop=False)
-            if picture is not None:
-                world.render(plan, picture)
+        if draw is not None:
+            draw(world)
     finally:
         world.close()
     return trial.violations, final
+
+
+def _draw(plan: Plan, picture: Path | None, emit: Emit, world: World[Any]) -> None:
+    """Draw the outcome, if a picture is wanted; without it the plan is as good, so it is only told."""
+    if picture is None:
+        return
+    try:
+        with blame("world"):
+            world.render(plan, picture)
+    except Proc3sError as error:
+        cause = error.__cause__
+        reason = cause.strerror if isinstance(cause, OSError) and cause.strerror else error
+        emit(Unwritten(text=f"the picture {picture} is missing: {reason}"))
 
 
 def _executed(execution: Execution, place: tuple[int, int]) -> PlanExecuted:

@@ -21,6 +21,7 @@ from proc3s.events import (
     ProgramExtracted,
     PromptRendered,
     RunEnded,
+    Unwritten,
 )
 from proc3s.llms import Message
 from proc3s.plugins import GROUP
@@ -32,17 +33,19 @@ LOG = "events.jsonl"
 class RunFolder:
     """Writes a run as it happens. Every line is whole when written, so a killed run can be read.
 
-    With `resume` it goes on with the log that is there. Raises UsageError if the folder cannot be written,
-    has something in it that should not be there, or another process writes it.
+    What cannot be written any more is told once, and then no more is written: a log has no holes. With
+    `resume` it goes on with the log that is there. Raises UsageError if the folder cannot be written to begin
+    with, has something in it that should not be there, or another process writes it.
     """
 
     def __init__(self, path: Path, resume: bool = False) -> None:
         self.path = path
+        self._broken = False
         try:
             path.mkdir(parents=True, exist_ok=True)
             if not resume and any(path.iterdir()):
                 raise UsageError(f"the folder {path} is not empty; give another --out, or --resume {path}")
-            self._log = (path / LOG).open("a", encoding="utf-8", errors="backslashreplace")
+            self._log = (path / LOG).open("ab", buffering=0)
             fcntl.flock(self._log, fcntl.LOCK_EX | fcntl.LOCK_NB)
             _mend(path / LOG)
         except BlockingIOError as error:
@@ -50,11 +53,32 @@ class RunFolder:
         except OSError as error:
             raise UsageError(f"the run folder {path} cannot be written: {error.strerror}") from error
 
-    def emit(self, event: Event) -> None:
-        """Append an event to the log and write the file that belongs to it."""
+    def emit(self, event: Event) -> Unwritten | None:
+        """Append an event to the log and write the file that belongs to it; what to tell if that fails."""
+        if self._broken:
+            return None
+        try:
+            self._append(event)
+            self._write_file(event)
+        except OSError as error:
+            self._broken = True
+            text = f"the run folder {self.path} cannot be written any more: {error.strerror}; it lacks "
+            return Unwritten(text=f"{text}everything from the event {event.event} on")
+        return None
+
+    def _append(self, event: Event) -> None:
+        """Add a line to the log, whole or not at all. Raises OSError."""
         line = {"time": datetime.now(UTC).isoformat(timespec="milliseconds"), **event.model_dump(mode="json")}
-        self._log.write(json.dumps(line, ensure_ascii=False) + "\n")
-        self._log.flush()
+        data = (json.dumps(line, ensure_ascii=False) + "\n").encode("utf-8", "backslashreplace")
+        end = os.fstat(self._log.fileno()).st_size
+        try:
+            while data:  # what was written in part only raises when it is gone on with
+                data = data[self._log.write(data) :]
+        except OSError:
+            self._log.truncate(end)
+            raise
+
+    def _write_file(self, event: Event) -> None:
         if isinstance(event, PromptRendered):
             self._write(f"prompt-{event.round}.md", markdown(event.messages))
         elif isinstance(event, AnswerReceived):

@@ -7,6 +7,7 @@ KEYS = [
     "method",
     "llm",
     "llm_source",
+    "stale",
     "solver",
     "preset",
     "seed",

@@ -47,6 +47,12 @@ def _guarded(command: Callable[..., Any]) -> Callable[..., Any]:
         except KeyboardInterrupt as error:
             typer.echo("proc3s: interrupted", err=True)
             raise typer.Exit(130) from error
+        except OSError as error:
+            if isinstance(error, BrokenPipeError):
+                raise
+            place = f"{error.filename}: " if error.filename else ""
+            typer.echo(f"proc3s: {place}{error.strerror or error}", err=True)
+            raise typer.Exit(2) from error
         except SystemExit as error:  # typer's own exits are of another class
             typer.echo(f"proc3s: code of a plugin ended the command (SystemExit: {error})", err=True)
             raise typer.Exit(2) from error

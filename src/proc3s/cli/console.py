@@ -149,7 +149,7 @@ class Console:
             return
         out = RichConsole(highlight=False, soft_wrap=True)
         out.print(_headline(summary))
-        if summary.error is None:
+        if summary.error is None or summary.solved:
             out.print(escape(f"goal     {_goal(summary)}"))
         out.print(f"samples  {summary.samples} in {_count(summary.rounds + 1, 'round')}, {_times(summary)}")
         for screen, rejected in summary.rejected_by.items():
@@ -194,7 +194,7 @@ def _count(number: int, what: str) -> str:
 
 
 def _headline(summary: Summary) -> str:
-    if summary.error is not None:
+    if summary.error is not None and not summary.solved:
         return f"[bold red]stopped[/]  {summary.task} (seed {summary.seed})"
     if summary.solved:
         steps = _count(len(summary.plan or []), "step")

@@ -15,7 +15,17 @@ from proc3s.cli.console import Console
 from proc3s.config import choose_llm
 from proc3s.conversation import Propose, Question, ask_llm, given_program
 from proc3s.errors import LLMError, Proc3sError, UsageError
-from proc3s.events import AnswerReceived, CallFailed, Charged, Event, RunEnded, RunResumed, RunStarted
+from proc3s.events import (
+    AnswerReceived,
+    CallFailed,
+    Charged,
+    Event,
+    PromptRendered,
+    RunEnded,
+    RunResumed,
+    RunStarted,
+    Unwritten,
+)
 from proc3s.limits import box_limits
 from proc3s.llms import Request, Source
 from proc3s.options import (
@@ -194,6 +204,7 @@ class Session:
         self._ledger = self._past.ledger
         self._recorded = {(a.round, a.candidate): a.completion for a in self._past.answers}
         self._emitting = threading.Lock()
+        self._unwritten: list[str] = []
         self._ask = self._asker() if job.given is None else None
         self._console = Console(self._options, self._problem.samples, quiet)
 
@@ -207,15 +218,26 @@ class Session:
             self._emit(self._begun())
             with self._console:
                 outcome = plan(setup, self._propose(), self._emit, self._past.rounds, self._past.clock())
-            summary = summarize(options, setup, outcome, path, self._spent())
+            summary = self._complete(summarize(options, setup, outcome, path, self._spent()))
             self._emit(RunEnded(summary=summary.model_dump(mode="json")))
+            summary = self._complete(summary)
         finally:
             self._folder.close()
             setup.executor.close()
         self._console.result(summary)
         for status in self._registry.plugins.failures:
             typer.echo(f"proc3s: plugin {status.name} ({status.source}) failed: {status.error}", err=True)
-        return summary, _exit_code(outcome, summary, resumable=job.given is None)
+        for text in self._unwritten:
+            if text != str(outcome.error):
+                typer.echo(f"proc3s: {text}", err=True)
+        code = _exit_code(outcome, summary, resumable=job.given is None)
+        return summary, UsageError.exit_code if self._unwritten else code
+
+    def _complete(self, summary: Summary) -> Summary:
+        """The summary with what could not be written, if nothing worse is to be told."""
+        if not self._unwritten or summary.error is not None:
+            return summary
+        return summary.model_copy(update={"error": "; ".join(self._unwritten), "stopped": UsageError.stopped})
 
     def _begun(self) -> Event:
         if self._job.past is not None:
@@ -271,9 +293,14 @@ class Session:
         if isinstance(event, AnswerReceived):
             self._recorded[event.round, event.candidate] = event.completion
         with self._emitting:  # calls in flight have news of their own
-            self._folder.emit(event)
-            self._console.update(event)
-            self._registry.plugins.on_event(event)
+            lost = self._folder.emit(event)
+            heard = (event, lost) if lost else (event,)
+            self._unwritten += [one.text for one in heard if isinstance(one, Unwritten)]
+            if self._unwritten and isinstance(event, RunStarted | RunResumed | PromptRendered):
+                raise UsageError(self._unwritten[0])  # what is asked and not kept is paid for in vain
+            for one in heard:
+                self._console.update(one)
+                self._registry.plugins.on_event(one)
 
 
 def _exit_code(outcome: Outcome, summary: Summary, resumable: bool) -> int:
