@@ -36,6 +36,11 @@ def box_limits(given: Mapping[str, str]) -> dict[str, str]:
     return {name: value for name, value in given.items() if name in _names(Limits)}
 
 
+def clock_only(given: Mapping[str, str]) -> dict[str, str]:
+    """Those of the clock alone, which may change when a run goes on."""
+    return {name: value for name, value in given.items() if name in _names(ClockLimits)}
+
+
 def _names(part: type[Limits] | type[ClockLimits]) -> list[str]:
     return [field.name for field in dataclasses.fields(part)]
 

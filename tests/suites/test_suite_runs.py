@@ -134,7 +134,8 @@ def test_a_provider_that_fails_is_asked_again_later(cli, suite, here):
     failed = cli("bench", name, "--out", "out")
     assert failed.code == 3
     assert "no answer is bundled for drawing/star" in failed.stderr
-    assert "1 episodes are not finished" in failed.stderr
+    assert "1 episode is not finished" in failed.stderr
+    assert [one.word for one in Store(here / "out").unfinished()] == ["error"]
     assert len(Store(here / "out").episodes()) == 3
 
 

@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+import sqlite3
 
 import pytest
 
@@ -13,9 +14,11 @@ from proc3s.reporting.words import folders_of
 from proc3s.suites.comparison import comparison
 from proc3s.suites.episode import Episode
 from proc3s.suites.files import FIGURES, write_files
+from proc3s.suites.outcomes import Unfinished
 from proc3s.suites.results import read_results
-from proc3s.suites.spec import SuiteSpec
-from proc3s.suites.store import Store
+from proc3s.suites.runner import remaining
+from proc3s.suites.spec import Cell, SuiteSpec
+from proc3s.suites.store import FILE, Store
 
 TASKS = ("drawing/star", "drawing/letters")
 MARK = "<script>document.title = 'reason'</script>"
@@ -93,9 +96,10 @@ def test_success_has_intervals_the_best_in_bold_and_the_published_figure(folder)
 def test_six_tables_and_what_the_paper_leaves_out(folder):
     tables = made(folder)
     assert [*tables] == [
-        *("Success, %", "Samples", "Search, s", "Total, s", "Feedback rounds", "LLM, s"),
+        *("Success, %", "Outcomes", "Samples", "Search, s", "Total, s", "Feedback rounds", "LLM, s"),
         *("Beside that", "First violations of samples"),
     ]
+    assert tables["Outcomes"]["cap"] == ("12", "8", "0", "0", "0")
     assert tables["Samples"]["cap"][0] == "14 ± 3"
     assert tables["Samples"]["· published"] == ("31 ± 4", "")
     assert tables["Total, s"]["cap"][0] == "7.50 ± 3.03"
@@ -130,15 +134,110 @@ def test_what_is_not_judged_or_not_known_is_said(tmp_path):
     free = [episode(TASKS[0], "cap", 0, None, judged=False, cost=None, prompt_tokens=None)]
     tables = made(filled(tmp_path / "free", free))
     assert tables["Success, %"]["cap"] == ("not judged", "")
-    assert tables["Beside that"]["cap"][4] == "unknown"
-    assert tables["Beside that"]["cap"][6] == "unknown"
+    assert tables["Beside that"]["cap"][4] == "?"
+    assert tables["Beside that"]["cap"][6] == "?"
+
+
+def test_a_sum_with_an_unknown_part_is_said_to_be_at_least_that(tmp_path):
+    some = [episode(TASKS[0], "cap", s, True, cost=None if s else 0.01) for s in range(3)]
+    some += [episode(TASKS[1], "cap", s, True, prompt_tokens=None) for s in range(1)]
+    folder = filled(tmp_path / "some", some)
+    line = made(folder)["Beside that"]["cap"]
+    assert line[6] == "at least 0.0200"
+    assert line[4] == "1,000 (of 3 known)"
+    episodes = json.loads((folder / "results.json").read_text())["episodes"]
+    assert [e["cost"] for e in episodes if e["task"] == TASKS[0]] == [0.01, None, None]
+    rows = list(csv.DictReader(io.StringIO((folder / "results.csv").read_text())))
+    assert [row["cost"] for row in rows if row["task"] == TASKS[0]] == ["0.01", "", ""]
 
 
 def test_an_episode_without_a_plan_is_a_failure_if_there_is_a_judge(tmp_path):
-    none = [episode(TASKS[0], "cap", 0, None, solved=False, executed="none", error="no program")]
-    folder = filled(tmp_path / "none", none)
-    assert made(folder)["Success, %"]["cap"][0].startswith("**0 [")
-    assert "1 episodes ended with an error, and count as failures." in (folder / "results.md").read_text()
+    none = [episode(TASKS[0], "cap", 0, None, solved=False, executed="none")]
+    tables = made(filled(tmp_path / "none", none))
+    assert tables["Success, %"]["cap"][0].startswith("**0 [")
+    assert tables["Outcomes"]["cap"] == ("0", "0", "1", "0", "0")
+
+
+ENDINGS = {
+    ("goal reached", None): {"reached": True},
+    ("goal missed", None): {"reached": False},
+    ("no plan", None): {"reached": None, "solved": False, "executed": "none"},
+    ("out of budget", "--max-cost is spent"): "budget",
+    ("out of time", "broken off after 60 s"): "time",
+    ("error", "no such key"): "llm",
+}
+
+
+@pytest.fixture
+def endings(tmp_path):
+    """A suite whose episodes all end otherwise, the seed saying how."""
+    folder = filled(tmp_path / "ends", [], spec(tasks=TASKS[:1], methods=("cap",)))
+    store = Store(folder)
+    for seed, ((_, error), how) in enumerate(ENDINGS.items()):
+        if isinstance(how, str):
+            store.leave(Unfinished(Cell(TASKS[0], "cap", "best", seed), how, error))
+        else:
+            store.add(episode(TASKS[0], "cap", seed, **how))
+    return folder
+
+
+def test_what_could_not_be_carried_out_is_told_from_failures_everywhere(endings, cli):
+    tables = made(endings)
+    assert tables["Success, %"]["cap"] == ("**33 [6, 79]**",)
+    words = [word for word, _ in ENDINGS]
+    assert json.loads((endings / "results.json").read_text())["tables"][1]["head"] == ["method", *words]
+    assert tables["Outcomes"]["cap"] == ("1",) * 6
+    rows = list(csv.DictReader(io.StringIO((endings / "results.csv").read_text())))
+    assert [(row["outcome"], row["error"]) for row in rows] == [(w, e or "") for w, e in ENDINGS]
+    data = json.loads((endings / "results.json").read_text())
+    assert [e["outcome"] for e in (*data["episodes"], *data["unfinished"])] == words
+    assert "3 episodes could not be carried out and count in no rate" in (endings / "results.md").read_text()
+    page = (endings / "results.html").read_text()
+    for word, error in ENDINGS:
+        assert word in page
+        assert error is None or error in page
+    compared = cli("compare", endings, endings, "--json").json
+    assert [(line["outcome"], line["A"], line["B"]) for line in compared["outcomes"]] == [
+        (word, "1", "1") for word in words
+    ]
+    assert compared["differences"][0]["pairs"] == "3"
+
+
+def test_the_judge_says_what_there_is_nothing_to_see_of(endings):
+    from typer.testing import CliRunner
+
+    from proc3s.cli import app
+
+    run = endings / read_results(endings).all[0].episode.run_dir
+    run.mkdir(parents=True)
+    options = {"task": TASKS[0], "plugins": []}
+    (run / "events.jsonl").write_text(json.dumps({"event": "run_started", "options": options}) + "\n")
+    said = CliRunner().invoke(app, ["judge", str(endings)], input="q\n").output
+    assert "nothing to look at: 1 no plan, 1 out of budget, 1 out of time, 1 error" in said
+    assert "2 outcomes" in said
+
+
+def test_an_episode_that_is_finished_later_replaces_its_reason(endings):
+    store = Store(endings)
+    (broken,) = (one for one in store.unfinished() if one.word == "error")
+    store.add(episode(TASKS[0], "cap", broken.cell.seed, True))
+    assert broken.cell not in [one.cell for one in store.unfinished()]
+    assert broken.cell in [one.cell for one in store.episodes()]
+
+
+def test_a_store_of_an_earlier_version_opens_and_its_errors_are_no_failures(tmp_path):
+    """It kept what could not be carried out among the finished episodes, and had no table for it."""
+    old = [episode(TASKS[0], "cap", 0, True)]
+    old += [episode(TASKS[0], "cap", 1, None, solved=False, executed="none", error="needs a key")]
+    folder = filled(tmp_path / "old", old)
+    with sqlite3.connect(folder / FILE) as table:
+        table.execute("DROP TABLE unfinished")
+    assert made(folder)["Success, %"]["cap"][0].startswith("**100 [")
+    assert [(one.word, one.error) for one in read_results(folder).unfinished] == [("error", "needs a key")]
+    assert Cell(TASKS[0], "cap", "best", 1) in remaining(spec(), Store(folder))
+    Store(folder).add(episode(TASKS[0], "cap", 1, True))
+    assert Store(folder).unfinished() == []
+    assert len(Store(folder).episodes()) == 2
 
 
 def test_the_rows_as_csv(folder):
@@ -175,7 +274,7 @@ def test_a_person_overrules_the_judge(folder, cli):
     result = CliRunner().invoke(app, ["judge", str(folder)], input="y\nlooks right\nn\n\ns\nq\n")
     assert result.exit_code == 0, result.output
     assert "Draw a star with at least five points." in result.output
-    assert f"machine  reached: {MARK}" in result.output
+    assert f"machine  goal reached: {MARK}" in result.output
     assert "2 verdicts kept" in result.output
     results = {r.episode.cell: r for r in read_results(folder).all if r.verdict}
     verdicts = [(r.episode.goal_reached, r.success, r.verdict.why) for r in results.values()]

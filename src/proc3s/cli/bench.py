@@ -50,6 +50,7 @@ def bench(
         Path | None,
         typer.Option("--resume", metavar="DIR", help="go on with a suite that was broken off"),
     ] = None,
+    limits: a.LimitOptions = None,
     executor: a.ExecutorName = None,
     jobs: a.Jobs = None,
     samples: Annotated[
@@ -90,6 +91,7 @@ def bench(
                 jobs=jobs or 1,
                 max_cost=max_cost,
                 check_goal=check_goal,
+                limits=tuple(limits or ()),
                 record=record,
                 plugins=tuple(plugin or ()),
                 out=out,

@@ -17,6 +17,7 @@ from proc3s.ratios import Row, rows
 from proc3s.registry import Registry, open_registry
 from proc3s.runs import new_folder, versions
 from proc3s.specs import ExecutorSpec, SolverSpec
+from proc3s.suites.lock import alone_in
 
 SUITES = ("ccsp", "execution")
 STAGES = "program + screens + world + other"
@@ -79,6 +80,18 @@ def run_bench(wanted: Wanted, out: Path | None, as_json: bool) -> None:
     registry = open_registry(wanted.plugins)
     cases, ways = _chosen(registry, wanted)
     folder = made_folder(out, wanted.suite)
+    with alone_in(folder):
+        _run_in(folder, registry, cases, ways, wanted, as_json)
+
+
+def _run_in(
+    folder: Path,
+    registry: Registry,
+    cases: Sequence[Case],
+    ways: Sequence[Way],
+    wanted: Wanted,
+    as_json: bool,
+) -> None:
     results = Results([], [])
     stopped: Proc3sError | None = None
     progress = Console(stderr=True, quiet=as_json, highlight=False)

@@ -20,17 +20,22 @@ def compare(
     from rich.markup import escape
     from rich.table import Table
 
-    from proc3s.suites.comparison import comparison
+    from proc3s.suites.comparison import comparison, outcomes
     from proc3s.suites.results import read_results
 
-    table = comparison(read_results(first), read_results(second))
+    both = read_results(first), read_results(second)
+    differences, ended = comparison(*both), outcomes(*both)
     if json:
-        lines = [dict(zip(table.head, line, strict=True)) for line in table.lines]
-        typer.echo(json_.dumps({"differences": lines, "note": table.note}, indent=2, ensure_ascii=False))
+        told = {
+            table.title.lower(): [dict(zip(table.head, line, strict=True)) for line in table.lines]
+            for table in (differences, ended)
+        }
+        typer.echo(json_.dumps({**told, "note": differences.note}, indent=2, ensure_ascii=False))
         return
-    shown = Table(*table.head, box=None, pad_edge=False)
-    for line in table.lines:
-        shown.add_row(*map(escape, line))
     out = Console(highlight=False, width=max(120, Console().width))
-    out.print(shown)
-    out.print(table.note, style="dim")
+    for table in (differences, ended):
+        shown = Table(*table.head, box=None, pad_edge=False)
+        for line in table.lines:
+            shown.add_row(*map(escape, line))
+        out.print(shown)
+        out.print(table.note, style="dim")

@@ -11,12 +11,13 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
-from proc3s.benchmark import find_cases
+from proc3s.benchmark import Case, find_cases
 from proc3s.cli.benching import Wanted, made_folder, write
 from proc3s.errors import Interrupted, Proc3sError
 from proc3s.fieldtest import FieldTest, field_tests, judged
-from proc3s.registry import open_registry
+from proc3s.registry import Registry, open_registry
 from proc3s.runs import versions
+from proc3s.suites.lock import alone_in
 
 HEAD = ("program", "rehearsals", "solved", "samples", "satisfied", "share")
 
@@ -26,6 +27,11 @@ def run_field_test(wanted: Wanted, out: Path | None, as_json: bool) -> None:
     registry = open_registry(wanted.plugins)
     cases = judged(find_cases(registry, wanted.tasks), registry)
     folder = made_folder(out, wanted.suite)
+    with alone_in(folder):
+        _run_in(folder, registry, cases, wanted, as_json)
+
+
+def _run_in(folder: Path, registry: Registry, cases: Sequence[Case], wanted: Wanted, as_json: bool) -> None:
     done: list[FieldTest] = []
     stopped: Proc3sError | None = None
     progress = Console(stderr=True, quiet=as_json, highlight=False)

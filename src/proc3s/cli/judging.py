@@ -8,8 +8,10 @@ from proc3s.registry import open_registry
 from proc3s.reporting.words import folders_of
 from proc3s.runs import options_of
 from proc3s.suites.files import write_files
-from proc3s.suites.results import Result, read_results
+from proc3s.suites.outcomes import told
+from proc3s.suites.results import Result, Results, read_results
 from proc3s.suites.store import Store
+from proc3s.wording import count
 
 _QUESTION = "reached? [y]es, [n]o, [s]kip, [q]uit"
 _QUIT = ("q", "quit")
@@ -20,10 +22,14 @@ def step_through(folder: Path, everything: bool) -> None:
     """Ask for every outcome that has a plan; verdicts are kept at once, tables made anew at the end."""
     results, store = read_results(folder), Store(folder)
     todo = [r for r in results.all if r.episode.executed != "none" and (everything or r.verdict is None)]
+    if unseen := _nothing_to_see(results):
+        typer.echo(f"nothing to look at: {unseen}")
     if not todo:
         typer.echo("nothing is left to judge")
         return
-    typer.echo(f"{len(todo)} outcomes; look at each picture and say whether the instruction is fulfilled")
+    typer.echo(
+        f"{count(len(todo), 'outcome')}; look at each picture and say whether the instruction is fulfilled"
+    )
     kept = 0
     for result in todo:
         answer = _ask(folder, result)
@@ -35,7 +41,13 @@ def step_through(folder: Path, everything: bool) -> None:
             kept += 1
     if kept:
         write_files(read_results(folder), folder, folders_of(open_registry()))
-    typer.echo(f"{kept} verdicts kept in {folder}")
+    typer.echo(f"{count(kept, 'verdict')} kept in {folder}")
+
+
+def _nothing_to_see(results: Results) -> str:
+    """How many episodes have no outcome to look at, by what they have instead."""
+    left = [one.word for one in results.unfinished]
+    return told([*(r.word for r in results.all if r.episode.executed == "none"), *left])
 
 
 def _ask(folder: Path, result: Result) -> str:
@@ -61,5 +73,5 @@ def _goal(run: Path) -> str:
 
 def _machine(result: Result) -> str:
     episode = result.episode
-    said = {True: "reached", False: "not reached", None: "no judge"}[episode.goal_reached]
-    return f"{said}: {episode.goal_reason}" if episode.goal_reason else said
+    word = Result(episode).word
+    return f"{word}: {episode.goal_reason}" if episode.goal_reason else word

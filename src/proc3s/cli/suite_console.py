@@ -13,9 +13,12 @@ from rich.table import Table as RichTable
 from rich.text import Text
 
 from proc3s.suites.episode import Episode
-from proc3s.suites.runner import Outcome, Unfinished
+from proc3s.suites.outcomes import Unfinished
+from proc3s.suites.results import Result
+from proc3s.suites.runner import Outcome
 from proc3s.suites.spec import SuiteSpec
 from proc3s.suites.tables import Table
+from proc3s.wording import count
 
 _WIDTH = 150
 """Columns of the results; a narrower terminal wraps its lines."""
@@ -28,7 +31,8 @@ class SuiteConsole:
         self._spec, self._episodes, self._quiet = spec, list(finished), quiet
         self._total = len(list(spec.cells()))
         self._began, self._ended = time.monotonic(), 0
-        self._spent: float | None = 0.0
+        self._spent = "0.0000"
+        self._left: list[Unfinished] = []
         self._err = Console(stderr=True, quiet=quiet, highlight=False)
         self._live = Live(console=self._err, transient=True) if sys.stderr.isatty() and not quiet else None
 
@@ -44,11 +48,13 @@ class SuiteConsole:
         if self._live:
             self._live.stop()
 
-    def add(self, outcome: Outcome, spent: float | None) -> None:
+    def add(self, outcome: Outcome, spent: str) -> None:
         """An episode has ended."""
         self._ended, self._spent = self._ended + 1, spent
         if isinstance(outcome, Episode):
             self._episodes.append(outcome)
+        else:
+            self._left.append(outcome)
         if self._live:
             self._live.update(self._table())
         else:
@@ -63,15 +69,16 @@ class SuiteConsole:
 
     def _cell(self, method: str, task: str) -> str:
         some = [e for e in self._episodes if (e.method, e.task) == (method, task)]
-        return f"{sum(e.goal_reached is True for e in some)}/{len(some)}" if some else "·"
+        left = sum((u.cell.method, u.cell.task) == (method, task) for u in self._left)
+        rate = f"{sum(e.goal_reached is True for e in some)}/{len(some)}" if some else "·"
+        return f"{rate} ({left} not finished)" if left else rate
 
     def _state(self) -> str:
         """Progress, the time left and the spend, in a line."""
         done, left = len(self._episodes), self._total - len(self._episodes)
         pace = (time.monotonic() - self._began) / self._ended if self._ended else None
         ahead = f"about {_duration(pace * left)} left" if pace is not None else "no time known yet"
-        spent = "unknown cost" if self._spent is None else f"{self._spent:.4f} $ spent"
-        return f"{done} of {self._total} episodes, {ahead}, {spent}"
+        return f"{done} of {self._total} episodes, {ahead}, {self._spent} $ spent"
 
     def result(self, tables: Sequence[Table], folder: Path) -> None:
         """The first tables, and where everything is."""
@@ -87,11 +94,10 @@ class SuiteConsole:
 
 def _word(outcome: Outcome) -> str:
     if isinstance(outcome, Unfinished):
-        return f"not finished: {outcome.error}"
+        return f"not finished, {outcome.word}: {outcome.error}"
     state = "solved" if outcome.solved else "unsolved"
-    goal = {True: ", goal reached", False: ", goal missed", None: ""}[outcome.goal_reached]
     stale = ", stale" if outcome.stale else ""
-    return f"{state}{goal}, {outcome.samples} samples{stale}"
+    return f"{state}, {Result(outcome).word}, {count(outcome.samples, 'sample')}{stale}"
 
 
 def _bold(cell: str) -> str:

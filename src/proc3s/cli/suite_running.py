@@ -13,24 +13,22 @@ import typer
 from proc3s.cli.benching import SUITES, made_folder
 from proc3s.cli.suite_console import SuiteConsole
 from proc3s.config import choose_llm
-from proc3s.errors import BudgetSpent, Interrupted, LLMError, Pending, Proc3sError, UsageError, did_you_mean
+from proc3s.errors import BudgetSpent, Interrupted, Proc3sError, UsageError, did_you_mean
+from proc3s.limits import clock_only, make_limits
 from proc3s.options import key_values
 from proc3s.registry import Registry, open_registry
 from proc3s.reporting.words import folders_of
 from proc3s.runs import versions
 from proc3s.suites.changes import changes
 from proc3s.suites.files import FIGURES, document, write_files
+from proc3s.suites.lock import alone_in
+from proc3s.suites.outcomes import Unfinished, as_error, reasons
+from proc3s.suites.preflight import check_order
 from proc3s.suites.results import read_results
-from proc3s.suites.runner import Order, Runner, Unfinished, remaining
-from proc3s.suites.spec import SuiteSpec, load_suite
+from proc3s.suites.runner import ALIKE, Order, Runner, remaining
+from proc3s.suites.spec import Cell, SuiteSpec, load_suite
 from proc3s.suites.store import Store
-
-_ERRORS: Mapping[str, type[Proc3sError]] = {
-    "pending": Pending,
-    "llm": LLMError,
-    "budget": BudgetSpent,
-    "interrupted": Interrupted,
-}
+from proc3s.wording import count
 
 
 @dataclass(frozen=True)
@@ -49,6 +47,7 @@ class SuiteWanted:
     jobs: int = 1
     max_cost: float | None = None
     check_goal: bool | None = None
+    limits: tuple[str, ...] = ()
     record: Path | None = None
     plugins: tuple[Path, ...] = ()
     out: Path | None = None
@@ -62,10 +61,24 @@ def run_suite(wanted: SuiteWanted, as_json: bool) -> None:
     """
     registry = open_registry(wanted.plugins)
     spec = _spec(registry, wanted)
-    folder = wanted.resume or made_folder(wanted.out, spec.name)
-    store = Store(folder, make=wanted.resume is None)
     order = _order(registry, wanted, spec)
-    spec = _begin(registry, store, order) if wanted.resume is None else _go_on(registry, store, order)
+    check_order(registry, order, _to_do(spec, wanted.resume))
+    folder = wanted.resume or made_folder(wanted.out, spec.name)
+    with alone_in(folder):
+        _carry_out(registry, order, Store(folder, make=wanted.resume is None), wanted, as_json)
+
+
+def _to_do(spec: SuiteSpec, resumed: Path | None) -> list[Cell]:
+    """The episodes that will be begun."""
+    return remaining(spec, Store(resumed)) if resumed else list(spec.cells())
+
+
+def _carry_out(registry: Registry, order: Order, store: Store, wanted: SuiteWanted, as_json: bool) -> None:
+    spec, folder = order.spec, store.folder
+    if wanted.resume is None:
+        _begin(store, order)
+    else:
+        _go_on(registry, store, order)
     todo = remaining(spec, store)
     unfinished: list[Unfinished] = []
     stopped: Proc3sError | None = None
@@ -84,7 +97,8 @@ def run_suite(wanted: SuiteWanted, as_json: bool) -> None:
         typer.echo(json.dumps(document(results, tables), indent=2, ensure_ascii=False))
     else:
         console.result(tables, folder)
-    _raise(stopped, unfinished, len(remaining(spec, store)), folder)
+    if left := len(remaining(spec, store)):
+        raise _reason(stopped, unfinished, left, runner.hopeless, folder)
 
 
 def _spec(registry: Registry, wanted: SuiteWanted) -> SuiteSpec:
@@ -127,12 +141,15 @@ def _order(registry: Registry, wanted: SuiteWanted, spec: SuiteSpec) -> Order:
     for preset in spec.presets:
         registry.get(PresetSpec, preset)
     judged = {task: bool(registry.task(task)[1].judge) for task in spec.tasks}
+    limits = key_values(list(wanted.limits))
+    make_limits(limits)
     chosen = choose_llm(wanted.llm, key_values(list(wanted.llm_options)))
     return Order(
         spec=spec,
         llm=chosen.name,
         llm_options=tuple(f"{key}={value}" for key, value in chosen.options.items()),
-        arguments=tuple(_arguments(wanted)),
+        arguments=(*_arguments(wanted), *_limits(limits)),
+        again=tuple(_limits(clock_only(limits))),
         llm_jobs=wanted.llm_jobs,
         jobs=wanted.jobs,
         max_cost=wanted.max_cost,
@@ -149,6 +166,11 @@ def _arguments(wanted: SuiteWanted) -> Iterator[str]:
         yield from ("--plugin", str(path.resolve()))
 
 
+def _limits(given: Mapping[str, str]) -> Iterator[str]:
+    for name, value in given.items():
+        yield from ("--limit", f"{name}={value}")
+
+
 def _facts(order: Order) -> dict[str, Any]:
     """What makes an episode what it is, beside its place in the matrix."""
     return {
@@ -160,32 +182,32 @@ def _facts(order: Order) -> dict[str, Any]:
     }
 
 
-def _begin(registry: Registry, store: Store, order: Order) -> SuiteSpec:
+def _begin(store: Store, order: Order) -> None:
     if store.facts():
         raise UsageError(f"{store.folder} has results already; go on with them by --resume {store.folder}")
     if figures := order.spec.figures_file:
         shutil.copyfile(figures, store.folder / FIGURES)
     store.note({**_facts(order), "began": datetime.now(UTC).isoformat(timespec="seconds")})
-    return order.spec
 
 
-def _go_on(registry: Registry, store: Store, order: Order) -> SuiteSpec:
+def _go_on(registry: Registry, store: Store, order: Order) -> None:
     """Say what has changed since the suite began, and go on as things are now."""
     for sentence in changes(registry, store.facts(), _facts(order), store.episodes()):
         typer.echo(f"proc3s: {sentence}", err=True)
     store.note(_facts(order))
-    return order.spec
 
 
-def _raise(stopped: Proc3sError | None, unfinished: list[Unfinished], left: int, folder: Path) -> None:
-    """End with the error that left most to do."""
-    if not left:
-        return
-    more = f"{left} episodes are not finished; go on with --resume {folder}"
+def _reason(
+    stopped: Proc3sError | None, unfinished: list[Unfinished], left: int, hopeless: bool, folder: Path
+) -> Proc3sError:
+    """The error that a suite of which `left` episodes are not finished ends with."""
+    verb = "is" if left == 1 else "are"
+    more = f"{count(left, 'episode')} {verb} not finished; go on with --resume {folder}"
     if stopped is not None:
-        raise Interrupted(f"{stopped}; {more}")
+        return Interrupted(f"{stopped}; {more}")
     if not unfinished:
-        raise BudgetSpent(f"--max-cost is spent; {more}")
-    first = unfinished[0]
-    error = _ERRORS.get(first.stopped, UsageError)
-    raise error(f"{first.cell.folder}: {first.error}\n{more}")
+        return BudgetSpent(f"--max-cost is spent; {more}")
+    why = [f"  {reason}" for reason in reasons(unfinished)]
+    if hopeless and left > len(unfinished):
+        why.append(f"  the latest {ALIKE} ended with the same error, so no more were begun")
+    return as_error(unfinished, "\n".join([more, *why]))

@@ -1,9 +1,11 @@
 """Two suites side by side: what the same tasks and seeds came to in both."""
 
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from typing import TypeAlias
 
 from proc3s.errors import UsageError
+from proc3s.suites.outcomes import ALWAYS, FINISHED, UNFINISHED
 from proc3s.suites.results import Result, Results
 from proc3s.suites.statistics import Estimate, paired_means, paired_proportions
 from proc3s.suites.tables import Table
@@ -41,6 +43,15 @@ def comparison(first: Results, second: Results) -> Table:
         "nothing of success."
     )
     return Table("Differences", head, tuple(lines), note)
+
+
+def outcomes(first: Results, second: Results) -> Table:
+    """How many episodes of each suite ended how, whether the other has them or not."""
+    counts = [Counter(word for line in r.lines for word in r.words(line)) for r in (first, second)]
+    words = [word for word in (*FINISHED, *UNFINISHED) if word in ALWAYS or any(c[word] for c in counts)]
+    lines = tuple((word, *(str(c[word]) for c in counts)) for word in words)
+    note = f"Of these, {', '.join(UNFINISHED)} could not be carried out, and are in no pair."
+    return Table("Outcomes", ("outcome", "A", "B"), lines, note)
 
 
 def _compared(first: Results, second: Results, name: str) -> bool:

@@ -71,7 +71,7 @@ class Episode(BaseModel):
     program_errors: int = 0
     """Programs that could not be used."""
     error: str | None = None
-    """Why the episode could not be carried out; null if it could."""
+    """Always null; earlier versions kept episodes that could not be carried out, with the reason here."""
     run_dir: str = ""
     """The run folder, relative to that of the suite."""
 
@@ -90,13 +90,19 @@ def episode_of(cell: Cell, summary: Summary, run: Path, run_dir: str, judged: bo
     live = bool(first and first.source == "live")
     prompts = [e["sha256"] for e in events if e["event"] == "prompt_rendered"]
     by_model = summary.llm_source in ("live", "recorded")
-    usage = summary.usage if by_model else Spent(prompt_tokens=None, completion_tokens=None, latency=None)
+    given = Spent(
+        prompt_tokens=None,
+        completion_tokens=None,
+        cost=None if summary.llm_source == "manual" else 0.0,  # whoever gave it may have paid for it
+        latency=None,
+    )
+    usage = summary.usage if by_model else given
     return Episode(
         **cell._asdict(),
         **summary.model_dump(
             include={
                 *("llm", "stale", "solved", "executed", "goal_reached", "goal_reason"),
-                *("rounds", "samples", "error"),
+                *("rounds", "samples"),
             }
         ),
         source=summary.llm_source,

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from proc3s.errors import UsageError
+from proc3s.suites.outcomes import Unfinished
 from proc3s.suites.results import Results, read_figures
 from proc3s.suites.tables import Table, provenance, tables
 
@@ -43,9 +44,14 @@ def document(results: Results, made: Sequence[Table]) -> dict[str, Any]:
         "origin": provenance(results),
         "tables": [{"title": t.title, "head": t.head, "lines": t.lines, "note": t.note} for t in made],
         "episodes": [
-            {**r.episode.model_dump(mode="json"), "human": r.verdict and r.verdict._asdict()}
+            {
+                **r.episode.model_dump(mode="json"),
+                "outcome": r.word,
+                "human": r.verdict and r.verdict._asdict(),
+            }
             for r in results.all
         ],
+        "unfinished": [_unfinished(one) for one in results.unfinished],
     }
 
 
@@ -67,14 +73,22 @@ def _in_table(text: str) -> str:
 
 
 def rows(results: Results) -> str:
-    """The episodes as CSV, what is nested under dotted names."""
-    flat = [_flat(r.episode.model_dump(mode="json")) | _human(r.verdict) for r in results.all]
+    """The episodes as CSV, what is nested under dotted names; those that are not finished come last."""
+    flat = [
+        _flat(r.episode.model_dump(mode="json")) | {"outcome": r.word} | _human(r.verdict)
+        for r in results.all
+    ]
+    flat += map(_unfinished, results.unfinished)
     names = list(dict.fromkeys(name for row in flat for name in row))
     out = io.StringIO()
     writer = csv.DictWriter(out, names, lineterminator="\n")
     writer.writeheader()
     writer.writerows(flat)
     return out.getvalue()
+
+
+def _unfinished(one: Unfinished) -> dict[str, Any]:
+    return {**one.cell._asdict(), "outcome": one.word, "error": one.error}
 
 
 def _human(verdict: Any) -> dict[str, Any]:

@@ -35,6 +35,7 @@ def page(results: Results, tables: Sequence[Table], folder: Path, templates: Seq
         tables=tables,
         charts={title: data_url(svg.encode(), "svg+xml") for title, svg in charts.items() if svg},
         gallery=list(_gallery(results, folder)),
+        unfinished=results.unfinished,
     )
 
 
@@ -52,10 +53,10 @@ def _gallery(results: Results, folder: Path) -> Iterator[dict[str, Any]]:
 def _state(result: Result) -> tuple[str, str]:
     """A word and the class of its badge."""
     if result.wrong:
-        return "solved but wrong", "warn"
-    if result.success is None:
-        return ("solved", "good") if result.episode.solved else ("unsolved", "bad")
-    return ("reached", "good") if result.success else ("not reached", "bad")
+        return f"solved, but {result.word}", "warn"
+    if result.success is None and result.episode.solved:
+        return "solved, not judged", "good"
+    return result.word, "good" if result.success else "bad"
 
 
 def thumbnail(path: Path) -> str | None:

@@ -8,6 +8,7 @@ from typing import Any
 
 from proc3s.errors import UsageError
 from proc3s.suites.episode import Episode
+from proc3s.suites.outcomes import Unfinished, Word
 from proc3s.suites.spec import Cell, SuiteSpec
 from proc3s.suites.store import Store, Verdict
 
@@ -27,6 +28,15 @@ class Result:
         return bool(self.episode.goal_reached) if self.episode.judged else None
 
     @property
+    def word(self) -> Word:
+        """What became of it."""
+        if self.success:
+            return "goal reached"
+        if self.episode.executed == "none":
+            return "no plan"
+        return "not judged" if self.success is None else "goal missed"
+
+    @property
     def wrong(self) -> bool:
         """The world accepted the plan, and yet the instruction is not fulfilled."""
         return self.episode.solved and self.success is False
@@ -38,7 +48,7 @@ class Result:
 
 
 class Results:
-    """All results of a suite, by line (method and preset) and task.
+    """All results of a suite, by line (method and preset) and task, and what could not be carried out.
 
     Those of stale answers are among `all`, and by line and task in `stale` alone.
     """
@@ -48,9 +58,11 @@ class Results:
         spec: SuiteSpec,
         results: Sequence[Result],
         facts: Mapping[str, Any],
+        unfinished: Sequence[Unfinished] = (),
         stale: bool = False,
     ) -> None:
-        self.spec, self.all, self.facts, self._stale = spec, results, facts, stale
+        self.spec, self.all, self.facts = spec, results, facts
+        self.unfinished, self._stale = unfinished, stale
         self.lines = [(method, preset) for method in spec.methods for preset in spec.presets]
 
     def of(self, line: tuple[str, str], task: str | None = None) -> list[Result]:
@@ -68,6 +80,13 @@ class Results:
         """The same, of answers to another prompt."""
         return Results(self.spec, [r for r in self.all if r.episode.stale], self.facts, stale=True)
 
+    def words(self, line: tuple[str, str], task: str | None = None) -> list[Word]:
+        """What became of the episodes of a method with a preset, those that are not finished included."""
+        left = [
+            one.word for one in self.unfinished if one.cell[1:3] == line and task in (None, one.cell.task)
+        ]
+        return [*(result.word for result in self.of(line, task)), *left]
+
     def label(self, line: tuple[str, str]) -> str:
         """What a line is called."""
         method, preset = line
@@ -84,7 +103,12 @@ def read_results(folder: Path) -> Results:
     verdicts = store.verdicts()
     results = [Result(e, verdicts.get(e.cell)) for e in store.episodes()]
     order: dict[Cell, int] = {cell: k for k, cell in enumerate(spec.cells())}
-    return Results(spec, sorted(results, key=lambda r: order.get(r.episode.cell, 0)), facts)
+    return Results(
+        spec,
+        sorted(results, key=lambda r: order.get(r.episode.cell, 0)),
+        facts,
+        sorted(store.unfinished(), key=lambda one: order.get(one.cell, 0)),
+    )
 
 
 Figures = Mapping[tuple[str, str, str], tuple[float, float | None]]

@@ -16,18 +16,22 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from proc3s.budget import Ledger
+from proc3s.errors import Proc3sError
 from proc3s.runs import LOG, events_of
 from proc3s.suites.episode import Episode, episode_of
+from proc3s.suites.outcomes import Unfinished
 from proc3s.suites.spec import Cell, SuiteSpec
 from proc3s.suites.store import Store
 from proc3s.summary import Summary
+from proc3s.wording import total
 
 RUNS = "runs"
 """Folder of the run folders, below that of the suite."""
 GRACE = 10.0
 """Seconds in which an episode may write what it has after Ctrl-C."""
 
-_EXIT_ERROR = "the run ended with code {code} and no summary: {text}"
+ALIKE = 3
+"""So many episodes in a row that end with the same error end the suite: the next ones would, too."""
 
 
 @dataclass(frozen=True)
@@ -39,6 +43,8 @@ class Order:
     llm_options: tuple[str, ...] = ()
     """`key=value`."""
     arguments: tuple[str, ...] = ()
+    again: tuple[str, ...] = ()
+    """Arguments that a run which goes on takes, too."""
     llm_jobs: int | None = None
     """Calls in flight of one episode."""
     jobs: int = 1
@@ -46,15 +52,6 @@ class Order:
     """US dollars, of all episodes together."""
     judged: Mapping[str, bool] = field(default_factory=dict)
     """Tasks that have a judge."""
-
-
-@dataclass(frozen=True)
-class Unfinished:
-    """An episode that is to be tried again: the provider failed, an answer is pending, the money is spent."""
-
-    cell: Cell
-    stopped: str
-    error: str
 
 
 Outcome = Episode | Unfinished
@@ -69,6 +66,8 @@ class Runner:
         self._lock, self._stopped = threading.Lock(), False
         self._allotted: dict[Cell, float] = {}
         self._broke = False
+        self._latest: list[str] = []
+        """The errors of the latest episodes, as long as they are the same."""
         self._spent = {run.name: spent_on(run) for run in (store.folder / RUNS).glob("*")}
 
     def outcomes(self, cells: Iterable[Cell]) -> Iterator[Outcome]:
@@ -96,7 +95,12 @@ class Runner:
 
     def _poor(self) -> bool:
         """Whether another episode could not ask anything."""
-        return self._broke or self._left() == 0.0
+        return self._broke or self._left() == 0.0 or self.hopeless
+
+    @property
+    def hopeless(self) -> bool:
+        """Whether no further episodes are begun, since the latest ones all ended with the same error."""
+        return len(self._latest) >= ALIKE
 
     def _left(self) -> float | None:
         """What may still be allotted; None without a limit."""
@@ -105,9 +109,9 @@ class Runner:
         return max(0.0, self._order.max_cost - self._known - sum(self._allotted.values()))
 
     @property
-    def spent(self) -> float | None:
-        """US dollars, estimates where nobody knows better; None if nobody knows at all."""
-        return None if None in self._spent.values() else self._known
+    def spent(self) -> str:
+        """US dollars in words, estimates where nobody knows better; unknown parts are said."""
+        return total([*self._spent.values()], "{:.4f}")
 
     @property
     def _known(self) -> float:
@@ -123,10 +127,22 @@ class Runner:
         self._broke |= isinstance(outcome, Unfinished) and outcome.stopped == "budget"
         self._spent[outcome.cell.folder] = spent_on(self._store.folder / RUNS / outcome.cell.folder)
         if isinstance(outcome, Episode):
+            self._latest = []
             self._store.add(outcome)
+        else:
+            error = outcome.error if outcome.word == "error" else ""
+            self._latest = [*(old for old in self._latest if old == error), error] if error else []
+            self._store.leave(outcome)
         return outcome
 
     def _run(self, cell: Cell) -> Outcome:
+        """One episode; whatever goes wrong around its process is why it is not finished."""
+        try:
+            return self._carried_out(cell)
+        except (OSError, Proc3sError) as error:
+            return Unfinished(cell, "crashed", str(error))
+
+    def _carried_out(self, cell: Cell) -> Outcome:
         """One episode in a process of its own, begun anew or gone on with."""
         run = self._store.folder / RUNS / cell.folder
         if (ended := _ended(run)) is not None:
@@ -152,7 +168,7 @@ class Runner:
     def _command(self, cell: Cell, run: Path, going_on: bool) -> Iterator[str]:
         spec = self._order.spec
         if going_on:
-            yield from ("--resume", str(run))
+            yield from ("--resume", str(run), *self._order.again)
         else:
             yield from (cell.task, "--method", cell.method, "--preset", cell.preset, "--seed", str(cell.seed))
             yield from ("--out", str(run))
@@ -172,11 +188,10 @@ class Runner:
         try:
             summary = Summary.model_validate_json(output)
         except ValueError:
-            lines = complaints.strip().splitlines() or ["it said nothing"]
             stopped = "interrupted" if self._stopped else "crashed"
-            return Unfinished(cell, stopped, _EXIT_ERROR.format(code=code, text=lines[-1]))
-        if summary.stopped is not None:
-            return Unfinished(cell, summary.stopped, summary.error or "")
+            return Unfinished(cell, stopped, _last_words(code, complaints))
+        if summary.stopped is not None or summary.error is not None:
+            return Unfinished(cell, summary.stopped or "usage", summary.error or "")
         return self._episode(cell, summary, run)
 
     def _episode(self, cell: Cell, summary: Summary, run: Path) -> Episode:
@@ -202,7 +217,17 @@ def _ended(run: Path) -> Summary | None:
     """The summary of a run that came to its end, though nobody was left to keep it."""
     found = events_of(run, "run_ended") if (run / LOG).is_file() else []
     summary = Summary.model_validate(found[-1]["summary"]) if found else None
-    return summary if summary and summary.stopped is None else None
+    return summary if summary and summary.stopped is None and summary.error is None else None
+
+
+def _last_words(code: int, complaints: str) -> str:
+    """Why a process ended that left no summary."""
+    if code < 0:
+        name = signal.Signals(-code).name if -code in [*signal.Signals] else str(-code)
+        hint = "; was there memory enough? fewer --jobs take less" if name == "SIGKILL" else ""
+        return f"the process of the run was ended by signal {name}{hint}"
+    lines = complaints.strip().splitlines() or ["it said nothing"]
+    return f"the run ended with code {code} and no summary: {lines[-1]}"
 
 
 def _begun(run: Path) -> bool:

@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 
 from proc3s.errors import UsageError
 from proc3s.suites.episode import Episode
+from proc3s.suites.outcomes import Unfinished
 from proc3s.suites.spec import Cell
 
 FILE = "episodes.sqlite"
@@ -22,6 +23,8 @@ PATIENCE = 30.0
 
 _CELL = "task TEXT, method TEXT, preset TEXT, seed INTEGER"
 _KEY = "PRIMARY KEY (task, method, preset, seed)"
+_IS = "task = ? AND method = ? AND preset = ? AND seed = ?"
+_ERROR = "json_extract(document, '$.error')"
 
 
 class Verdict(NamedTuple):
@@ -49,6 +52,9 @@ class Store:
             table.execute(
                 f"CREATE TABLE IF NOT EXISTS verdicts ({_CELL}, reached INTEGER, why TEXT, at TEXT, {_KEY})"
             )
+            table.execute(
+                f"CREATE TABLE IF NOT EXISTS unfinished ({_CELL}, stopped TEXT, error TEXT, {_KEY})"
+            )
             table.execute("CREATE TABLE IF NOT EXISTS facts (name TEXT PRIMARY KEY, document TEXT)")
 
     def add(self, episode: Episode) -> None:
@@ -56,6 +62,8 @@ class Store:
         row = (*episode.cell, episode.model_dump_json())
         try:
             with self._open() as table:
+                table.execute(f"DELETE FROM unfinished WHERE {_IS}", episode.cell)
+                table.execute(f"DELETE FROM episodes WHERE {_IS} AND {_ERROR} IS NOT NULL", episode.cell)
                 table.execute("INSERT INTO episodes VALUES (?, ?, ?, ?, ?)", row)
         except sqlite3.IntegrityError as error:
             raise UsageError(f"another process has finished {episode.cell.folder} as well") from error
@@ -63,8 +71,27 @@ class Store:
     def episodes(self) -> list[Episode]:
         """All that are finished, in the order in which they were."""
         with self._open() as table:
-            rows = table.execute("SELECT document FROM episodes ORDER BY rowid").fetchall()
+            wanted = f"SELECT document FROM episodes WHERE {_ERROR} IS NULL ORDER BY rowid"
+            rows = table.execute(wanted).fetchall()
         return [Episode.model_validate_json(document) for (document,) in rows]
+
+    def leave(self, unfinished: Unfinished) -> None:
+        """Keep why an episode could not be carried out, in place of an earlier reason."""
+        row = (*unfinished.cell, unfinished.stopped, unfinished.error)
+        with self._open() as table:
+            table.execute("INSERT OR REPLACE INTO unfinished VALUES (?, ?, ?, ?, ?, ?)", row)
+
+    def unfinished(self) -> list[Unfinished]:
+        """The episodes that could not be carried out up to now.
+
+        Earlier versions kept those that ended with an error among the finished ones.
+        """
+        columns = "task, method, preset, seed"
+        old = f"SELECT {columns}, 'usage', {_ERROR} FROM episodes WHERE {_ERROR} IS NOT NULL"
+        with self._open() as table:
+            rows = table.execute(f"{old} UNION ALL SELECT * FROM unfinished").fetchall()
+        latest = {Cell(*row[:4]): Unfinished(Cell(*row[:4]), *row[4:]) for row in rows}
+        return list(latest.values())
 
     def judge(self, cell: Cell, reached: bool, why: str = "") -> None:
         """Keep what a person says of an episode, in place of what was said before."""

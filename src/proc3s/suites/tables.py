@@ -5,8 +5,10 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
+from proc3s.suites.outcomes import ALWAYS, FINISHED, UNFINISHED, Word, reasons
 from proc3s.suites.results import Figures, Result, Results
 from proc3s.suites.statistics import ALPHA, mean_std, wilson, worse
+from proc3s.wording import count, total
 
 Line: TypeAlias = tuple[str, str]
 Read: TypeAlias = Callable[[Result], float | None]
@@ -39,6 +41,7 @@ MEANS: tuple[tuple[str, str, str, Read], ...] = (
 def tables(results: Results, figures: Figures) -> Iterator[Table]:
     """All tables, that of success first."""
     yield success_table(results, figures)
+    yield outcome_table(results)
     if results.stale.all:
         yield replace(success_table(results.stale, {}), title=STALE)
     for quantity, title, form, read in MEANS:
@@ -62,9 +65,25 @@ def success_table(results: Results, figures: Figures) -> Table:
     return Table("Success, %", ("method", *results.spec.tasks), tuple(lines), note)
 
 
+def outcome_table(results: Results) -> Table:
+    """How many episodes ended how; a kind that is not usual has a column where there is one."""
+    counts = {line: Counter(results.words(line)) for line in results.lines}
+    there = sum(counts.values(), Counter[Word]())
+    words = [word for word in (*FINISHED, *UNFINISHED) if word in ALWAYS or there[word]]
+    lines = tuple((results.label(line), *(str(counts[line][word]) for word in words)) for line in counts)
+    note = (
+        "Goal missed and no plan are failures, and count in the rates. What could not be carried out "
+        f"({', '.join(word for word in words if word in UNFINISHED)}) is in no rate, and is tried again by "
+        "--resume."
+    )
+    return Table("Outcomes", ("method", *words), lines, note)
+
+
 def _success(results: Results, line: Line, task: str) -> str:
     """One rate, bold where it is among the best of its task."""
     counted = rate_of(results.of(line, task))
+    if not counted and results.words(line, task):
+        return "not finished"
     if isinstance(counted, str):
         return counted
     good, of = counted
@@ -130,25 +149,24 @@ def _left_out(results: Results) -> Table:
                 str(sum(r.verdict is not None for r in some)),
                 _mean_of(some, "{:,.0f}", lambda r: r.episode.prompt_tokens),
                 _mean_of(some, "{:,.0f}", lambda r: r.episode.completion_tokens),
-                _cost(some),
+                total([r.episode.cost for r in some], "{:.4f}") if some else "",
             )
         )
     head = ("method", "episodes", "solved", "solved but wrong", "judged by a person")
-    note = "Solved: the world accepted a plan. Tokens and cost are of all calls of an episode; cost is a sum."
+    note = (
+        "Solved: the world accepted a plan. Tokens and cost are of all calls of an episode that is finished, "
+        "tokens as a mean, cost as a sum; what nobody said is `?`, and a sum with such a part is `at least`."
+    )
     return Table("Beside that", (*head, "tokens asked", "tokens answered", "cost, $"), tuple(lines), note)
 
 
 def _mean_of(results: Sequence[Result], form: str, read: Read) -> str:
+    """A mean, and of how many it is where that is not all."""
     values = _values(results, read)
-    return form.format(mean_std(values)[0]) if values else "unknown"
-
-
-def _cost(results: Sequence[Result]) -> str:
-    costs = [r.episode.cost for r in results]
-    known = [cost for cost in costs if cost is not None]
-    if not known:
-        return "unknown" if costs else ""
-    return f"{sum(known):.4f}" + (" and unknown ones" if None in costs else "")
+    if not values:
+        return "?" if results else ""
+    text = form.format(mean_std(values)[0])
+    return text if len(values) == len(results) else f"{text} (of {len(values)} known)"
 
 
 def _violations(results: Results) -> Table:
@@ -170,21 +188,29 @@ def provenance(results: Results) -> list[str]:
         kinds.setdefault((one.source, one.model or "no model", one.stale), []).append(result)
     told = [_origin(source, model, some) for (source, model, _), some in kinds.items()]
     if stale := len(results.stale.all):
-        told.append(f"{stale} episodes use answers to earlier prompts: they have a table of their own.")
+        told.append(f"{_using(stale)} answers to earlier prompts: they have a table of their own.")
     lost = Counter(name for r in results.all for name in r.episode.dropped)
     told += [
-        f"In {count} episodes the provider did not take the parameter `{name}`: they cannot be repeated."
-        for name, count in lost.items()
+        f"In {count(times, 'episode')} the provider did not take the parameter `{name}`: "
+        f"{'it' if times == 1 else 'they'} cannot be repeated."
+        for name, times in lost.items()
     ]
-    failed = sum(r.episode.error is not None for r in results.all)
-    return told + [f"{failed} episodes ended with an error, and count as failures."] * (failed > 0)
+    if not results.unfinished:
+        return told
+    left, why = count(len(results.unfinished), "episode"), "; ".join(reasons(results.unfinished))
+    return [*told, f"{left} could not be carried out and count in no rate: {why}."]
 
 
 def _origin(source: str, model: str, some: Sequence[Result]) -> str:
     if source == "authored":
-        return f"{len(some)} episodes use answers that were written by hand: no success rate is made of them."
+        return f"{_using(len(some))} answers that were written by hand: no success rate is made of them."
     dates = sorted({r.episode.answered[:10] for r in some if r.episode.answered})
     when = f", answered {dates[0]}" + (f" to {dates[-1]}" if len(dates) > 1 else "") if dates else ""
     hashes = sorted({r.episode.prompt_sha256[:12] for r in some if r.episode.prompt_sha256})
     shown = ", ".join(hashes[:3]) + (f" and {len(hashes) - 3} more" if len(hashes) > 3 else "")
-    return f"{len(some)} episodes: {source} answers of {model}{when}; SHA-256 of first prompts: {shown}."
+    number = count(len(some), "episode")
+    return f"{number}: {source} answers of {model}{when}; SHA-256 of first prompts: {shown}."
+
+
+def _using(episodes: int) -> str:
+    return f"{count(episodes, 'episode')} {'uses' if episodes == 1 else 'use'}"
