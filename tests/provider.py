@@ -30,8 +30,9 @@ class Reply:
     usage: Mapping[str, Any] | None = field(default_factory=lambda: USAGE)
     after: float = 0.0
     """Seconds before anything is sent."""
-    does: Literal["answer", "hang", "close", "cut"] = "answer"
-    """`hang`: nothing is sent; `close`: the connection ends; `cut`: it ends amid the body."""
+    does: Literal["answer", "hang", "close", "cut", "drip", "drip head", "spaces"] = "answer"
+    """`hang`: nothing is sent; `close`: the connection ends; `cut`: it ends amid the body; `drip`: the body
+    comes byte by byte, `drip head` the headers, ever more of them; `spaces`: lines that keep it open."""
 
 
 def says(text: str | None, **how: Any) -> Reply:
@@ -56,6 +57,7 @@ def refuses(status: int, message: str, *, code: str | None = None, **headers: st
 HANGS = Reply(does="hang")
 CLOSES = Reply(does="close")
 CUTS = Reply(text="half of this never arrives", does="cut")
+DRIPS = tuple(Reply(body=b"{" + b" " * 1000, does=does) for does in ("drip", "drip head", "spaces"))
 
 
 @dataclass(frozen=True)
@@ -85,6 +87,8 @@ class Provider(ThreadingHTTPServer):
         self.asked: list[Asked] = []
         self.looked_up: list[Asked] = []
         self.closing = threading.Event()
+        self.under = ""
+        """Where everything is; any other path is not found."""
         self._script: list[Reply] = []
         self._lock = threading.Lock()
 
@@ -140,13 +144,28 @@ class _Handler(BaseHTTPRequestHandler):
             self.server.closing.wait(reply.after or None)
         if reply.does in ("hang", "close"):
             return
+        if not self.path.startswith(self.server.under):
+            reply = sends({"detail": "Not Found"}, 404)
         body = answer if reply.body is None else reply.body
+        if reply.does == "drip head":
+            self._drip(b"HTTP/1.1 200 OK\r\n" + b"X: y\r\n" * 1000)
+            return
         self.send_response(reply.status)
         for name, value in {"Content-Type": "application/json", **reply.headers}.items():
             self.send_header(name, value)
         self.send_header("Content-Length", str(len(body)))
         self.end_headers()
+        if reply.does in ("drip", "spaces"):
+            self._drip(body if reply.does == "drip" else b"\n" * len(body))
+            return
         self.wfile.write(body[: len(body) // 2] if reply.does == "cut" else body)
+
+    def _drip(self, data: bytes) -> None:
+        for k in range(len(data)):
+            if self.server.closing.wait(0.05):
+                return
+            self.wfile.write(data[k : k + 1])
+            self.wfile.flush()
 
     def log_message(self, *_: object) -> None:
         """Keep the test output clean."""

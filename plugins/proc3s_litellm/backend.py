@@ -1,22 +1,26 @@
 """Asking a model through litellm, which is imported inside the call only: it takes seconds."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import Any
-from urllib.parse import urlsplit
 
 from pydantic import BaseModel, ConfigDict, Field, SecretStr, model_validator
 
 from proc3s import LLM, Candidate, Completion, LLMError, Price, Request, Usage
 from proc3s_litellm import prices
-from proc3s_litellm.faults import diagnose
+from proc3s_litellm.addresses import fault_of
+from proc3s_litellm.answers import candidate, counted, error_in, model_in, readable
+from proc3s_litellm.exchange import Exchange
+from proc3s_litellm.faults import diagnose, sent_as_success
 from proc3s_litellm.keys import find_key, hide_key
 from proc3s_litellm.loading import introduce, load_litellm
-from proc3s_litellm.parameters import split
+from proc3s_litellm.parameters import refused, renamed, split
 from proc3s_litellm.providers import PROVIDERS, Provider, server_of
-from proc3s_litellm.refusals import Failure
 from proc3s_litellm.sentences import Call, explain
 from proc3s_litellm.strangers import key_for_call
 from proc3s_litellm.wire import marked, plain, takes_marks
+
+_NOTHING = Usage(prompt_tokens=0, completion_tokens=0)
 
 
 class Options(BaseModel):
@@ -25,23 +29,18 @@ class Options(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True, hide_input_in_errors=True)
 
     api_base: str | None = Field(None, description="address of a server that speaks the provider's protocol")
-    timeout: float = Field(120.0, gt=0, description="seconds to wait for the answer")
+    timeout: float = Field(
+        120.0, gt=0, description="seconds that a call may take, from request to the end of its answer"
+    )
 
     @model_validator(mode="before")
     @classmethod
     def _plain_address(cls, given: Any) -> Any:
         # Before the fields, so that no message about a field can repeat an address with a password.
-        if isinstance(given, Mapping) and isinstance(address := given.get("api_base"), str):
-            _check_address(address)
+        address = given.get("api_base") if isinstance(given, Mapping) else None
+        if isinstance(address, str) and (wrong := fault_of(address)):
+            raise ValueError(f"api_base {wrong}")
         return given
-
-
-def _check_address(address: str) -> None:
-    parts = urlsplit(address)
-    if parts.username or parts.password or "@" in parts.netloc:
-        raise ValueError("api_base is logged, so it must not hold a user name or password")
-    if parts.scheme not in ("http", "https") or not parts.hostname or parts.query or parts.fragment:
-        raise ValueError("api_base must be an address such as http://localhost:11434/v1")
 
 
 class LiteLLM(LLM):
@@ -61,6 +60,7 @@ class LiteLLM(LLM):
         key = find_key(model, provider, server)
         self._options = options
         self._call = Call(model, provider, server, options.timeout, key)
+        self._spelling: dict[str, str] = {}
 
     @property
     def price(self) -> Price | None:  # type: ignore[override]
@@ -72,25 +72,54 @@ class LiteLLM(LLM):
         except Exception as error:  # litellm's classes share no base of their own
             raise explain(diagnose(error), self._call) from None
 
+    def prepare(self) -> None:
+        """Import litellm, which takes seconds."""
+        try:
+            load_litellm()
+        except Exception as error:  # an installation that is broken, in whichever way
+            raise explain(diagnose(error), self._call) from None
+
     def complete(self, request: Request) -> Completion:
         """Ask the model once. Raises LLMError with the fault that litellm's exception stands for."""
+        exchange, arguments = Exchange(), dict[str, Any]()
         try:
             litellm = load_litellm()
             introduce(litellm, self._call.provider, self._call.name)
             access = self._access(key_for_call(litellm, self._call))
             arguments, dropped = split(litellm, self._call.model, request.sampling)
             messages = marked if takes_marks(litellm, self._call.model) else plain
-            response = litellm.completion(
+            call = partial(
+                litellm.completion,
                 model=self._call.model,
                 messages=messages(request.messages),
-                **arguments,
+                logger_fn=exchange.listen,
+                **{self._spelling.get(name, name): value for name, value in arguments.items()},
                 **access,
             )
+            response = exchange.run(call, self._options.timeout)
         except LLMError:
             raise
         except Exception as error:  # litellm's classes share no base of their own
-            raise explain(diagnose(error), self._call) from None
-        return self._completion(litellm, response, dropped)
+            if candidates := readable(exchange.body):
+                return self._completion(candidates, exchange, dropped)
+            raise self._explained(error, exchange, arguments) from None
+        choices = getattr(response, "choices", None) or ()
+        candidates = tuple(candidate(_fields(c.message), c.finish_reason) for c in choices)
+        cost = self._cost(litellm, response)
+        answer = self._completion(candidates, exchange, dropped)
+        changes = {"model": self._named(response.model), "usage": _usage(response), "cost": cost}
+        return answer.model_copy(update=changes)
+
+    def _explained(self, error: Exception, exchange: Exchange, arguments: Mapping[str, Any]) -> LLMError:
+        failure = diagnose(error)
+        if exchange.body and error_in(exchange.body):
+            failure = sent_as_success(exchange.body) or failure
+        refusal = failure.status is not None and 400 <= failure.status < 500 and failure.fault != "filtered"
+        usage = counted(exchange.body) or (_NOTHING if refusal else None)
+        if "max_tokens" in arguments and "max_tokens" not in self._spelling and renamed(failure):
+            self._spelling["max_tokens"] = "max_completion_tokens"
+            return explain(failure, self._call, usage, ())
+        return explain(failure, self._call, usage, refused(failure, arguments) or None)
 
     def _access(self, key: SecretStr | None) -> dict[str, Any]:
         """Arguments that say where and as whom; litellm is told not to try again."""
@@ -101,33 +130,34 @@ class LiteLLM(LLM):
             given["api_base"] = self._options.api_base
         return given
 
-    def _completion(self, litellm: Any, response: Any, dropped: tuple[str, ...]) -> Completion:
-        candidates = tuple(self._candidate(choice) for choice in getattr(response, "choices", None) or ())
-        if not candidates:
-            raise explain(Failure("empty"), self._call)
-        if not any(c.text for c in candidates) and "content_filter" in {c.finish_reason for c in candidates}:
-            raise explain(Failure("filtered"), self._call)
-        usage = _usage(getattr(response, "usage", None))
+    def _completion(
+        self, candidates: Sequence[Candidate], exchange: Exchange, dropped: tuple[str, ...]
+    ) -> Completion:
+        """What came over the wire; figures as far as its body has them."""
         return Completion(
-            candidates=candidates,
-            model=self._hidden(response.model or self._call.model).removeprefix(f"{self._call.provider}/"),
+            candidates=tuple(
+                c.model_copy(
+                    update={"text": self._hidden(c.text), "refusal": c.refusal and self._hidden(c.refusal)}
+                )
+                for c in candidates
+            ),
+            model=self._named(model_in(exchange.body)),
             model_asked=self._call.model,
-            usage=usage,
-            cost=self._cost(litellm, response, usage),
+            usage=counted(exchange.body) or Usage(),
+            latency=exchange.seconds,
             dropped=dropped,
         )
 
-    def _candidate(self, choice: Any) -> Candidate:
-        content = choice.message.content
-        text = content if isinstance(content, str) else ""
-        return Candidate(text=self._hidden(text), finish_reason=choice.finish_reason)
+    def _named(self, model: str | None) -> str:
+        """A model as it calls itself, else as it was asked for."""
+        return self._hidden(model or self._call.model).removeprefix(f"{self._call.provider}/")
 
     def _hidden(self, text: str) -> str:
         """A server that echoes the key in its answer does not get it into any log."""
         return hide_key(text, self._call.key)
 
-    def _cost(self, litellm: Any, response: Any, usage: Usage) -> float | None:
-        if self._call.server or usage.prompt_tokens is None:
+    def _cost(self, litellm: Any, response: Any) -> float | None:
+        if self._call.server or _usage(response).prompt_tokens is None:
             return None
         try:
             return prices.cost(litellm, self._call.model, response.usage)
@@ -135,8 +165,16 @@ class LiteLLM(LLM):
             return None
 
 
-def _usage(counted: Any) -> Usage:
+def _fields(message: Any) -> dict[str, Any]:
+    """What litellm's message says, refusals that it keeps apart included."""
+    names = ("content", "refusal", "tool_calls", "function_call")
+    apart = getattr(message, "provider_specific_fields", None) or {}
+    return {name: getattr(message, name, None) or apart.get(name) for name in names}
+
+
+def _usage(response: Any) -> Usage:
     """Tokens as the provider counted them; where it says nothing litellm puts zeros."""
+    counted = getattr(response, "usage", None)
     prompt = getattr(counted, "prompt_tokens", None) or None
     if prompt is None:
         return Usage()

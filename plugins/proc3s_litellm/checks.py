@@ -1,20 +1,18 @@
 """What can be said of the installation and the keys without importing litellm or spending a token."""
 
 import re
-import urllib.error
-import urllib.request
 from collections.abc import Iterator
 from importlib import metadata
 
-from proc3s import Finding
+from proc3s import Finding, UsageError
 from proc3s_litellm.backend import Options
 from proc3s_litellm.keys import keys_set
 from proc3s_litellm.providers import PROVIDERS, SIGNED_IN, Provider, provider_of, server_of
+from proc3s_litellm.servers import server_findings
 
 _MALICIOUS = frozenset({"1.82.7", "1.82.8"})
 _LOWEST, _BELOW = (1, 106, 2), (1, 110)
 _WANTED = "pip install 'litellm>=1.106.2,<1.110'"
-_SECONDS = 2.0
 
 
 def check(model: str | None, options: Options | None) -> Iterator[Finding]:
@@ -24,11 +22,15 @@ def check(model: str | None, options: Options | None) -> Iterator[Finding]:
     if model is None:
         return
     provider = provider_of(model)
-    server = server_of(provider, options.api_base if options else None)
+    try:
+        server = server_of(provider, options.api_base if options else None)
+    except UsageError as error:
+        yield Finding(level="error", subject="server", text=str(error), advice="correct it, or unset it")
+        return
     yield _key_of(provider, server)
     known = PROVIDERS.get(provider, Provider())
     if address := server or known.address:
-        yield _server(address, provider)
+        yield from server_findings(address, provider, model.partition("/")[2])
 
 
 def _version() -> Finding:
@@ -74,37 +76,3 @@ def _key_of(provider: str, server: str | None) -> Finding:
         text="its key is missing",
         advice=f"set {' or '.join(known.keys)} in the environment",
     )
-
-
-def _server(address: str, provider: str) -> Finding:
-    problem = _unreachable(address)
-    if problem is None:
-        return Finding(level="ok", subject="server", text=f"{address} answers")
-    start = "`ollama serve`" if provider.startswith("ollama") else "it"
-    return Finding(
-        level="error",
-        subject="server",
-        text=f"{address} does not answer: {problem}",
-        advice=f"start {start}, or correct -L api_base=ADDRESS",
-    )
-
-
-def _unreachable(address: str) -> str | None:
-    """Why nobody answers there; any HTTP answer will do, and no key is sent to get one."""
-    opener = urllib.request.build_opener(_Stay())
-    try:
-        opener.open(f"{address.rstrip('/')}/models", timeout=_SECONDS).close()
-    except urllib.error.HTTPError:
-        return None
-    except urllib.error.URLError as error:
-        return getattr(error.reason, "strerror", None) or str(error.reason)
-    except (OSError, ValueError) as error:
-        return str(error) or type(error).__name__
-    return None
-
-
-class _Stay(urllib.request.HTTPRedirectHandler):
-    """A redirect is an answer too."""
-
-    def redirect_request(self, *_: object, **__: object) -> None:
-        return None

@@ -5,9 +5,9 @@ import re
 from collections.abc import Iterator
 from typing import Any
 
-from proc3s_litellm.refusals import Failure, fault_by_words, is_html, one_line, refused
+from proc3s_litellm.refusals import Failure, fault_by_words, is_html, one_line, refused, words
 
-_WRONG_SHAPE = (KeyError, TypeError, AttributeError, IndexError)
+_WRONG_SHAPE = (KeyError, TypeError, AttributeError, IndexError, RecursionError)
 
 
 def diagnose(error: BaseException) -> Failure:
@@ -34,6 +34,12 @@ def _decisive(link: BaseException) -> Failure | None:
         return refused(link.response.status_code, _body(link.response), link.response.headers)
     if isinstance(link, httpx.TransportError):
         return _transport(link)
+    if isinstance(link, TimeoutError):
+        return Failure("timeout")
+    if isinstance(link, httpx.DecodingError):
+        return Failure("broken", "it cannot be decompressed")
+    if isinstance(link, httpx.TooManyRedirects):
+        return Failure("other", "the server sends in circles", lost=True)
     if isinstance(link, json.JSONDecodeError):
         return _unreadable(link.doc)
     if isinstance(link, ModuleNotFoundError):
@@ -69,7 +75,7 @@ def _transport(error: Any) -> Failure:
 def _unreadable(body: str) -> Failure:
     """A body that is no answer; what is wrong with an HTML page is the address."""
     html = is_html(body)
-    return Failure("broken", "a page of HTML" if html else "not JSON", html=html)
+    return Failure("broken", "a page of HTML" if html else "not JSON", lost=html)
 
 
 def _error_in_200(link: Any) -> Failure:
@@ -77,6 +83,21 @@ def _error_in_200(link: Any) -> Failure:
     code, message = str(link.status_code), str(getattr(link, "message", ""))
     if re.fullmatch(r"[45]\d\d", code):
         return refused(int(code), json.dumps({"message": message}), {})
+    return _unnumbered(code, message)
+
+
+def sent_as_success(body: str) -> Failure | None:
+    """The error in a body that came with status 200 and has no number of its own; litellm says 422 then."""
+    error = json.loads(body)["error"]
+    if isinstance(error, dict) and re.fullmatch(r"[45]\d\d", str(error.get("code"))):
+        return None
+    code = str(error.get("code") or error.get("type") or "") if isinstance(error, dict) else ""
+    return _unnumbered(code, words(body))
+
+
+def _unnumbered(code: str, message: str) -> Failure:
+    if re.search(r"unexpected endpoint|no such (route|endpoint)|invalid url", message, re.IGNORECASE):
+        return Failure("other", one_line(message), lost=True)
     return Failure(fault_by_words(f"{code} {message}") or "server", one_line(message))
 
 

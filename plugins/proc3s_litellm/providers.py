@@ -5,6 +5,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from urllib.parse import urlsplit
 
+from proc3s import UsageError
+from proc3s_litellm.addresses import fault_of
+
 
 @dataclass(frozen=True)
 class Provider:
@@ -100,10 +103,16 @@ def provider_of(model: str) -> str:
 def server_of(provider: str, api_base: str | None) -> str | None:
     """The address of a server that stands in for the provider's own: the option's, or a variable's.
 
-    None where there is none. It holds no user name or password.
+    None where there is none. It holds no user name or password. Raises UsageError that names a variable
+    which holds no address.
     """
-    if api_base is None and provider not in _OWN_ADDRESS_NEEDED:
-        api_base = next((os.environ[name] for name in _bases(provider) if os.environ.get(name)), None)
+    for name in _bases(provider) if api_base is None else ():
+        if given := os.environ.get(name):
+            address = _anonymous(given)
+            if wrong := fault_of(address):
+                raise UsageError(f"the environment variable {name} {wrong}")
+            if provider not in _OWN_ADDRESS_NEEDED:
+                return address
     return None if api_base is None else _anonymous(api_base)
 
 
@@ -116,5 +125,11 @@ def _bases(provider: str) -> list[str]:
 
 
 def _anonymous(address: str) -> str:
-    parts = urlsplit(address)
+    """Without what must not be shown; as it is if it is no address, of which `fault_of` shows nothing."""
+    try:
+        parts = urlsplit(address)
+    except ValueError:
+        return address
+    if not address.isprintable():  # `urlsplit` has dropped what is wrong with it
+        return address
     return parts._replace(netloc=parts.netloc.rpartition("@")[2], query="", fragment="").geturl()

@@ -73,7 +73,10 @@ class Failure:
     words: str = ""
     status: int | None = None
     retry_after: float | None = None
-    html: bool = False
+    lost: bool = False
+    """Whether it looks as if the address led nowhere."""
+    about: str = ""
+    """Names of the parameters that the refusal is about, where it lists them."""
 
 
 def refused(status: int, body: str, headers: Mapping[str, str]) -> Failure:
@@ -81,7 +84,7 @@ def refused(status: int, body: str, headers: Mapping[str, str]) -> Failure:
     delay = retry_after(headers)
     if delay is None and (found := _RETRY.search(body)):
         delay = float(found[1])
-    return Failure(_fault(status, body, delay), words(body), status, delay, is_html(body))
+    return Failure(_fault(status, body, delay), words(body), status, delay, is_html(body), _about(body))
 
 
 def _fault(status: int, body: str, delay: float | None) -> Fault:
@@ -122,12 +125,7 @@ def _message(body: str) -> tuple[str, str]:
 
     Providers word it `{"error": {"message", "type", "code", …}}`, or nearly so.
     """
-    try:
-        data = json.loads(body)
-    except ValueError:
-        return body[:_LONGEST], ""
-    first = data[0] if isinstance(data, list) and data else data
-    error = first.get("error", first) if isinstance(first, dict) else first
+    error = _error(body)
     if not isinstance(error, dict):
         return str(error)[:_LONGEST], ""
     said = next((_text(error[name]) for name in ("message", "msg", "detail", "error") if error.get(name)), "")
@@ -135,6 +133,27 @@ def _message(body: str) -> tuple[str, str]:
     upstream = metadata.get("raw") if isinstance(metadata, dict) else None
     message = f"{said}: {upstream}" if isinstance(upstream, str) else said
     return message[:_LONGEST], json.dumps([error.get(name) for name in ("type", "code", "status", "details")])
+
+
+def _error(body: str) -> Any:
+    """The error in a body: mostly a dict; a text if it is no JSON."""
+    try:
+        data = json.loads(body)
+    except (ValueError, RecursionError):
+        return body
+    first = data[0] if isinstance(data, list) and data else data
+    return first.get("error", first) if isinstance(first, dict) else first
+
+
+def _about(body: str) -> str:
+    """OpenAI names one parameter as `param`, FastAPI a path to each as `loc`."""
+    error = _error(body)
+    if not isinstance(error, dict):
+        return ""
+    detail = error.get("detail")
+    paths = [part.get("loc") for part in detail if isinstance(part, dict)] if isinstance(detail, list) else []
+    ends = [str(path[-1]) for path in paths if isinstance(path, list) and path]
+    return " ".join([*ends, str(error.get("param") or "")]).strip()
 
 
 def _text(said: Any) -> str:

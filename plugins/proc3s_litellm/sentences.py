@@ -1,10 +1,12 @@
 """Failures as sentences: what happened, with which model and server, and what to do."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from pydantic import SecretStr
 
-from proc3s import LLMError
+from proc3s import LLMError, Usage
+from proc3s_litellm.addresses import corrected
 from proc3s_litellm.keys import DUMMY, hide_secrets, missing_key
 from proc3s_litellm.providers import PROVIDERS, Provider
 from proc3s_litellm.refusals import Failure
@@ -33,16 +35,29 @@ class Call:
         return self.model.partition("/")[2]
 
 
-def explain(failure: Failure, call: Call) -> LLMError:
-    """The error that a person reads; no key in it."""
+def explain(
+    failure: Failure, call: Call, usage: Usage | None = None, parameters: Sequence[str] | None = None
+) -> LLMError:
+    """The error that a person reads; no key in it.
+
+    `usage` is what the provider counted all the same, `parameters` are those that it refuses, if that is it.
+    """
     if failure.fault == "missing_key":
         return missing_key(call.model, " or ".join(call.known.keys))
-    what, advice = _sentence(failure, call)
+    fault = failure.fault if parameters is None else "parameter"
+    what, advice = _sentence(failure, call) if parameters is None else _parameters(parameters)
     status = f"HTTP {failure.status}" if failure.status else ""
     said = ": ".join(part for part in (status, _words(failure, call)) if part)
     where = f"{call.model} at {call.server}" if call.server else call.model
     text = f"{where}: {what}{f' ({said})' if said else ''}{f'; {advice}' if advice else ''}"
-    return LLMError(hide_secrets(text, call.key), failure.fault, failure.retry_after)
+    return LLMError(hide_secrets(text, call.key), fault, failure.retry_after, usage, parameters or ())
+
+
+def _parameters(names: Sequence[str]) -> tuple[str, str]:
+    if not names:
+        return "a parameter has another name there", ""
+    options = " ".join(f"-L {name}=none" for name in names if name != "n")
+    return f"the provider refuses {' and '.join(names)}", options and f"{options} leaves it out"
 
 
 def _words(failure: Failure, call: Call) -> str:
@@ -69,8 +84,6 @@ def _sentence(failure: Failure, call: Call) -> tuple[str, str]:
             return "the server failed", "try again later, or choose another --llm"
         case "broken":
             return "what came back is no answer", _base_advice(failure, call) or "try again"
-        case "empty":
-            return "the answer holds no candidates", "try again, or choose another --llm"
         case "context":
             return "the conversation is too long for the model", "choose one with a larger context"
         case "filtered":
@@ -111,9 +124,10 @@ def _unknown_model(failure: Failure, call: Call) -> tuple[str, str]:
 
 
 def _base_advice(failure: Failure, call: Call) -> str:
-    """A page, or a path that is not there, mostly means that the address lacks its end."""
-    lost = failure.html or (failure.status in (404, 405) and "model" not in failure.words)
+    """A page, or a path that is not there, mostly means that the address has another end."""
+    elsewhere = failure.status in (301, 302, 303, 307, 308)
+    lost = failure.lost or elsewhere or (failure.status in (404, 405) and "model" not in failure.words)
     if call.server is None or not lost:
         return ""
-    whole = call.provider != "openai" or call.server.rstrip("/").endswith("/v1")
-    return "check -L api_base=ADDRESS" + ("" if whole else ", which mostly ends in /v1")
+    meant = corrected(call.server, call.provider)
+    return f"is -L api_base={meant} meant?" if meant else "check -L api_base=ADDRESS"

@@ -25,7 +25,7 @@ def cut_off(completion: Completion) -> LLMError:
     tokens = completion.usage.completion_tokens
     where = f" after {tokens:,} tokens" if tokens else ""
     return LLMError(
-        f"{completion.model}: the answer was cut off{where}; raise -L max_tokens=N, or choose a model that "
+        f"{_who(completion)}: the answer was cut off{where}; raise -L max_tokens=N, or choose a model that "
         "writes less",
         "cut_off",
     )
@@ -44,22 +44,23 @@ def refuse_empty(completion: Completion) -> None:
     if refusals:
         said = " ".join(refusals[0].split())[:300]
         raise LLMError(
-            f"{completion.model}: the model refused ({said}); change the instruction, or choose another "
+            f"{_who(completion)}: the model refused ({said}); change the instruction, or choose another "
             "--llm",
             "filtered",
         )
     if any(_held_back(candidate) for candidate in completion.candidates):
         raise LLMError(
-            f"{completion.model}: the provider's content filter held the answer back; change the "
+            f"{_who(completion)}: the provider's content filter held the answer back; change the "
             "instruction, or choose another --llm",
             "filtered",
         )
     if any(candidate.finish_reason in _TOOLS for candidate in completion.candidates):
         raise LLMError(
-            f"{completion.model}: the model called a tool instead of answering, though none was offered; "
+            f"{_who(completion)}: the model called a tool instead of answering, though none was offered; "
             "choose another --llm",
         )
-    raise LLMError(f"{completion.model}: the answer is empty; choose another --llm if it stays so", "empty")
+    what = "the answer is empty" if completion.candidates else "the answer holds no candidates"
+    raise LLMError(f"{_who(completion)}: {what}; choose another --llm if it stays so", "empty")
 
 
 def prompt_was_cut(request: Request, completion: Completion) -> tuple[str, ...]:
@@ -71,6 +72,10 @@ def prompt_was_cut(request: Request, completion: Completion) -> tuple[str, ...]:
         f"the server counted {counted:,} tokens of a prompt of about {expected:,}: it seems to cut prompts; "
         "raise its context length",
     )
+
+
+def _who(completion: Completion) -> str:
+    return completion.model_asked or completion.model
 
 
 def _cut(candidate: Candidate) -> bool:

@@ -1,6 +1,7 @@
 """Which LLM is asked when the command line names none: environment, project, user, in this order."""
 
 import os
+import re
 import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
@@ -42,16 +43,26 @@ def choose_llm(name: str | None, options: Mapping[str, str]) -> ChosenLLM:
     SpecError for a file that is wrong.
     """
     configured = next(_configured(), None)
+    variable = os.environ.get(VARIABLE, "").strip()
     if name is not None:
         chosen = ChosenLLM(name, by="--llm")
-    elif os.environ.get(VARIABLE):
-        chosen = ChosenLLM(os.environ[VARIABLE], by=VARIABLE)
+    elif variable:
+        chosen = _worded(variable)
     elif configured is not None:
         chosen = configured
     else:
         chosen = ChosenLLM(DEFAULT_LLM)
     inherited = configured.options if configured and configured.name == chosen.name else {}
-    return ChosenLLM(chosen.name, {**inherited, **options}, chosen.by)
+    return ChosenLLM(chosen.name, {**inherited, **chosen.options, **options}, chosen.by)
+
+
+def _worded(variable: str) -> ChosenLLM:
+    """`NAME -L key=value …`, as on the command line; quotes are for the shell that sets the variable."""
+    name, *options = re.split(r"\s+-L[\s=]*", variable)
+    for option in options:
+        if not re.match(r"\w+=", option):
+            raise UsageError(f"{VARIABLE} takes options as in `openai/NAME -L key=value`, not {option!r}")
+    return ChosenLLM(name, dict(option.split("=", 1) for option in options), VARIABLE)
 
 
 def files() -> tuple[Path, Path]:

@@ -84,3 +84,41 @@ def test_a_file_does_not_matter_where_nobody_is_asked(cli, here):
     (here / "proc3s.toml").write_text("nonsense")
     assert cli("list").code == 0
     assert cli("render-prompt", "drawing/star").code == 0
+
+
+def test_options_in_the_variable_are_written_as_on_the_command_line(cli, here, monkeypatch, events):
+    monkeypatch.setenv("PROC3S_LLM", "manual:my desk -L wait=0  -L temperature=0.5")
+    assert cli("run", "drawing/star", "--out", "r").code == 4
+    options = events(here / "r", "run_started")[0]["options"]
+    assert options["llm"] == "manual:my desk"
+    assert options["llm_options"] == {"wait": "0", "temperature": "0.5"}
+    assert cli("run", "drawing/star", "-L", "temperature=0.7", "--out", "s").code == 4
+    changed = events(here / "s", "run_started")[0]["options"]["llm_options"]
+    assert changed == {"wait": "0", "temperature": "0.7"}
+
+
+def test_options_in_the_variable_are_for_its_llm_alone(cli, here, monkeypatch):
+    monkeypatch.setenv("PROC3S_LLM", "manual:desk -L wait=0")
+    assert cli("run", "drawing/star", "--llm", "replay").code == 0
+
+
+@pytest.mark.parametrize(
+    ("value", "word"),
+    [
+        ("replay -L", "PROC3S_LLM"),
+        ("replay -L temperature", "PROC3S_LLM"),
+        ("replay -L temprature=1", "did you mean 'temperature'"),
+        ("openai/x -L api_key=sk-12345678", "environment variable"),
+    ],
+)
+def test_a_variable_that_is_wrong(cli, here, monkeypatch, value, word):
+    monkeypatch.setenv("PROC3S_LLM", value)
+    result = cli("run", "drawing/star", "--out", "r")
+    assert (result.code, word in result.stderr) == (2, True)
+    assert "sk-1234" not in result.stderr
+    assert not (here / "r").exists()
+
+
+def test_an_empty_variable_chooses_nothing(cli, monkeypatch):
+    monkeypatch.setenv("PROC3S_LLM", "  ")
+    assert llm(cli("run", "drawing/star", "--json")) == "replay"

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from provider import CLOSES, CUTS, HANGS, refuses, says, sends
+from provider import CLOSES, CUTS, DRIPS, HANGS, refuses, says, sends
 
 # The import of litellm takes seconds, in every process anew.
 pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("litellm")]
@@ -217,3 +217,75 @@ def test_a_real_model(cli):
     result = cli("run", "drawing/star", "--llm", *llm, "--json")
     assert result.code in (0, 1), result.stderr
     assert result.json["llm_source"] == "live"
+
+
+def test_a_server_that_knows_few_parameters(cli, local, provider, events, here):
+    provider.script(refuses(400, "temperature is not supported"), refuses(422, "unknown field `seed`"))
+    result = cli("run", "drawing/star", *local, "--out", "r")
+    assert result.code == 0
+    assert [sorted({"temperature", "seed"} & asked.body.keys()) for asked in provider.asked] == [
+        ["seed", "temperature"],
+        ["seed"],
+        [],
+    ]
+    assert "the provider refuses temperature (HTTP 400: temperature is not supported)" in result.stderr
+    assert result.stderr.count("does not support seed: this run cannot be reproduced") == 1
+    completion = events(here / "r", "answer_received")[0]["completion"]
+    assert (completion["dropped"], completion["attempts"]) == (["temperature", "seed"], 3)
+    assert completion["sampling"]["temperature"] is None
+
+
+@pytest.mark.parametrize(
+    ("sent", "word"),
+    [
+        ({"content": None, "refusal": "I cannot help with stars"}, "I cannot help with stars"),
+        ({"content": "", "tool_calls": [{"id": "1", "type": "function", "function": {"name": "f"}}]}, "tool"),
+    ],
+    ids=["refusal", "tool"],
+)
+def test_why_there_is_no_answer_is_said_at_once_and_what_it_cost(cli, local, provider, sent, word):
+    choice = {"index": 0, "message": {"role": "assistant", **sent}, "finish_reason": "stop"}
+    usage = {"prompt_tokens": 1000, "completion_tokens": 7, "total_tokens": 1007}
+    provider.script(sends({"id": "1", "model": "m", "choices": [choice], "usage": usage}))
+    result = cli("run", "drawing/star", *local, "--json")
+    assert (result.code, len(provider.asked)) == (3, 1)
+    assert word in result.json["error"]
+    spent = result.json["usage"]
+    assert (spent["calls"], spent["prompt_tokens"], spent["completion_tokens"]) == (1, 1000, 7)
+    assert spent["cost"] is None
+
+
+def test_an_answer_in_parts_is_run(cli, local, provider):
+    parts = [{"type": "reasoning", "text": "def gen_plan"}, {"type": "text", "text": STAR}]
+    choice = {"index": 0, "message": {"role": "assistant", "content": parts}, "finish_reason": "stop"}
+    provider.script(sends({"id": "1", "model": "m", "choices": [choice]}))
+    result = cli("run", "drawing/star", *local, "--json")
+    assert (result.code, len(provider.asked)) == (0, 1)
+
+
+def test_a_server_that_drips(cli, local, provider):
+    provider.script(DRIPS[0])
+    begun = time.monotonic()
+    result = cli("run", "drawing/star", *local, "-L", "timeout=0.5", "-L", "patience=0", "--json")
+    assert (result.code, "no answer within 0.5 s" in result.json["error"]) == (3, True)
+    assert time.monotonic() - begun < 20
+
+
+def test_importing_litellm_is_not_the_models_time(shell, local):
+    """In a process of its own, where litellm is not imported yet."""
+    result = shell("run", "drawing/star", *local, "--json", timeout=120)
+    assert result.code == 0, result.stderr
+    assert result.json["usage"]["latency"] < 1
+    assert result.json["seconds"]["llm"] < 4
+
+
+@pytest.mark.parametrize("path", ["", "/", "/v1/chat/completions", "/chat/completions"])
+def test_the_right_address_is_said(cli, provider, path, monkeypatch):
+    monkeypatch.delenv("OPENAI_API_KEY", raising=False)
+    provider.under = "/v1/chat/completions"
+    address = f"{provider.root}{path}"
+    if path == "/v1/chat/completions":
+        provider.under = "/v1/chat/completions?"  # nothing is where two such paths lead
+    result = cli("run", "drawing/star", "--llm", "openai/tiny", "-L", f"api_base={address}", "--json")
+    assert result.code == 3
+    assert f"is -L api_base={provider.address} meant?" in result.json["error"]
