@@ -153,7 +153,7 @@ PLAIN = {"SKILL": "add", "CONSTRAINT": "few", "INITIAL": "none", "JUDGE": "fine"
         ("SKILL", "skill add", 2),
         ("CONSTRAINT", "constraint few", 1),
         ("INITIAL", "scene of three", 1),
-        ("JUDGE", "judge of toy/three", 1),
+        ("JUDGE", "judge mine:quit of toy/three", 1),
         ("SCREENS", "screen mine", 1),
     ],
 )

@@ -1,8 +1,9 @@
 """The typer application: the table of commands, and how errors leave it."""
 
+import contextlib
 import functools
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import typer
@@ -23,6 +24,7 @@ from proc3s.cli import (
     run,
     schema,
 )
+from proc3s.cli.streams import document_alone, exit_code, take_streams
 from proc3s.errors import Proc3sError
 
 app = typer.Typer(
@@ -34,13 +36,19 @@ app = typer.Typer(
 )
 
 
+def _prints_document(options: Mapping[str, Any]) -> bool:
+    """Whether stdout is for one document: JSON, or a prompt."""
+    return bool(options.get("json")) or ("format_" in options and options["check"] is None)
+
+
 def _guarded(command: Callable[..., Any]) -> Callable[..., Any]:
     """A mistake of the user is a message and an exit code, never a traceback."""
 
     @functools.wraps(command)
     def guarded(*args: Any, **kwargs: Any) -> None:
         try:
-            command(*args, **kwargs)
+            with document_alone() if _prints_document(kwargs) else contextlib.nullcontext():
+                command(*args, **kwargs)
         except Proc3sError as error:
             typer.echo(f"proc3s: {error}", err=True)
             raise typer.Exit(error.exit_code) from error
@@ -103,4 +111,8 @@ def _root(
 
 def main() -> None:
     """Entry point of the `proc3s` script."""
-    sys.exit(app())
+    out = take_streams()
+    try:
+        app()
+    except SystemExit as ended:
+        sys.exit(exit_code(ended.code if isinstance(ended.code, int) else 0, out))

@@ -7,11 +7,11 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any, TypeAlias
 
-import typer
 from rich.console import Console
 from rich.table import Table
 
 from proc3s.benchmark import PLAIN, Bench, Case, Measurement, Way, find_cases
+from proc3s.cli.streams import print_document
 from proc3s.errors import Interrupted, Proc3sError, UsageError
 from proc3s.ratios import Row, rows
 from proc3s.registry import Registry, open_registry
@@ -107,7 +107,7 @@ def _run_in(
     write(folder / "results.json", json.dumps(document, indent=2, ensure_ascii=False) + "\n")
     write(folder / "results.md", _markdown(results))
     if as_json:
-        typer.echo(json.dumps(document, indent=2, ensure_ascii=False))
+        print_document(json.dumps(document, indent=2, ensure_ascii=False))
     else:
         _print(results, folder)
     if stopped is not None:

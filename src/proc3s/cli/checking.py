@@ -5,10 +5,10 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-import typer
 from rich.console import Console
 from rich.markup import escape
 
+from proc3s.cli.streams import print_document
 from proc3s.conformance.checks import Check, CheckFinding, examine
 from proc3s.conformance.subject import Subject
 from proc3s.errors import UsageError
@@ -33,7 +33,7 @@ def examine_domain(wanted: str, seconds: float, plugins: Sequence[Path], as_json
     if as_json:
         told = [finding.model_dump() for finding in found]
         document = {"domain": name, "errors": errors, "findings": told, "facts": facts}
-        typer.echo(json.dumps(document, indent=2, ensure_ascii=False))
+        print_document(json.dumps(document, indent=2, ensure_ascii=False))
     else:
         for fact in facts:
             out.print(f"fact   {escape(fact)}")

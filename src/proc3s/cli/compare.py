@@ -20,6 +20,7 @@ def compare(
     from rich.markup import escape
     from rich.table import Table
 
+    from proc3s.cli.streams import print_document
     from proc3s.suites.comparison import comparison, outcomes
     from proc3s.suites.results import read_results
 
@@ -30,7 +31,7 @@ def compare(
             table.title.lower(): [dict(zip(table.head, line, strict=True)) for line in table.lines]
             for table in (differences, ended)
         }
-        typer.echo(json_.dumps({**told, "note": differences.note}, indent=2, ensure_ascii=False))
+        print_document(json_.dumps({**told, "note": differences.note}, indent=2, ensure_ascii=False))
         return
     out = Console(highlight=False, width=max(120, Console().width))
     for table in (differences, ended):

@@ -11,6 +11,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from proc3s.asking import CallOptions
+from proc3s.cli.streams import json_of, print_document
 from proc3s.domain import Domain
 from proc3s.errors import UsageError, did_you_mean
 from proc3s.options import options_model
@@ -27,7 +28,7 @@ def print_list(kind: str | None, plugins: Sequence[Path], as_json: bool) -> None
     chosen = [k for k in kinds if kind is None or k.rstrip("s") == kind.rstrip("s")]
     rows = {k: dict(_rows(registry, k)) for k in chosen}
     if as_json:
-        typer.echo(json.dumps(rows, indent=2, ensure_ascii=False))
+        print_document(json.dumps(rows, indent=2, ensure_ascii=False))
         return
     out = Console(soft_wrap=True, highlight=False)
     for name, entries in rows.items():
@@ -60,7 +61,7 @@ def print_spec(name: str, plugins: Sequence[Path], as_json: bool) -> None:
     registry = open_registry(plugins)
     specs = _find(registry, name)
     if as_json:
-        typer.echo(specs[0].model_dump_json(indent=2))
+        print_document(json_of(specs[0]))
         return
     out = Console(soft_wrap=True, highlight=False)
     for spec in specs:

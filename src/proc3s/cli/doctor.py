@@ -14,6 +14,7 @@ def doctor(
     from rich.console import Console
     from rich.markup import escape
 
+    from proc3s.cli.streams import print_document
     from proc3s.config import choose_llm
     from proc3s.doctor import examine
     from proc3s.options import key_values
@@ -22,7 +23,9 @@ def doctor(
     chosen = choose_llm(llm, key_values(llm_options or []))
     findings = list(examine(open_registry(plugin or []), chosen))
     if json:
-        typer.echo(json_.dumps([finding.model_dump() for finding in findings], indent=2, ensure_ascii=False))
+        print_document(
+            json_.dumps([finding.model_dump() for finding in findings], indent=2, ensure_ascii=False)
+        )
     else:
         console = Console(highlight=False, soft_wrap=True)
         colours = {"ok": "green", "note": "yellow", "error": "red"}

@@ -15,6 +15,7 @@ def explain(
     json: a.Json = False,
 ) -> None:
     """Say in plain words, round by round, what failed in a run, what changed, and where to look."""
+    from proc3s.cli.streams import print_document
     from proc3s.registry import open_registry
     from proc3s.reporting.explanation import explain, explained
     from proc3s.reporting.story import read_story
@@ -22,6 +23,6 @@ def explain(
 
     story, folders = read_story(run), folders_of(open_registry(plugin or []))
     if json:
-        typer.echo(json_module.dumps(explained(story, folders), indent=2))
+        print_document(json_module.dumps(explained(story, folders), indent=2))
     else:
         typer.echo(explain(story, folders), nl=False)

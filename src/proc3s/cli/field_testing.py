@@ -7,12 +7,12 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-import typer
 from rich.console import Console
 from rich.table import Table
 
 from proc3s.benchmark import Case, find_cases
 from proc3s.cli.benching import Wanted, made_folder, write
+from proc3s.cli.streams import print_document
 from proc3s.errors import Interrupted, Proc3sError
 from proc3s.fieldtest import FieldTest, field_tests, judged
 from proc3s.registry import Registry, open_registry
@@ -49,7 +49,7 @@ def _run_in(folder: Path, registry: Registry, cases: Sequence[Case], wanted: Wan
     document = _document(wanted, done, stopped)
     write(folder / "results.json", json.dumps(document, indent=2, ensure_ascii=False) + "\n")
     if as_json:
-        typer.echo(json.dumps(document, indent=2, ensure_ascii=False))
+        print_document(json.dumps(document, indent=2, ensure_ascii=False))
     else:
         _print(done, folder)
     if stopped is not None:

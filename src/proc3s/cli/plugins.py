@@ -20,6 +20,7 @@ def plugins(
     from rich.markup import escape
     from rich.table import Table
 
+    from proc3s.cli.streams import print_document
     from proc3s.registry import KINDS, open_registry
 
     registry = open_registry(plugin or [])
@@ -28,7 +29,7 @@ def plugins(
             registry.plugins.specs(kind)
     statuses = list(registry.plugins.statuses.values())
     if json:
-        typer.echo(json_.dumps([dataclasses.asdict(status) for status in statuses], indent=2))
+        print_document(json_.dumps([dataclasses.asdict(status) for status in statuses], indent=2))
     else:
         table = Table("plugin", "from", "version", "state", box=None, pad_edge=False)
         for s in statuses:

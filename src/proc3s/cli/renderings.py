@@ -9,6 +9,7 @@ from typing import Any
 import typer
 
 from proc3s.cli.session import run_options
+from proc3s.cli.streams import print_document
 from proc3s.conversation import Exchange, conversation, proposals_of
 from proc3s.errors import UsageError
 from proc3s.feedback import Diagnosis
@@ -59,9 +60,8 @@ def show(messages: tuple[Message, ...], format_: str, diff: Path | None, round_:
     """Print a rendering, or how it differs; its SHA-256 and size go to stderr."""
     text = _formatted(messages, format_)
     if diff is not None:
-        typer.echo("".join(unified_diff(_earlier(diff, format_, round_), text, str(diff), "now")), nl=False)
-    else:
-        typer.echo(text, nl=False)
+        text = "".join(unified_diff(_earlier(diff, format_, round_), text, str(diff), "now"))
+    print_document(text)
     typer.echo(f"sha256 {digest(messages)}  about {estimate_tokens(messages)} tokens", err=True)
 
 

@@ -12,6 +12,7 @@ import typer
 from proc3s.backends import find_llm, patient
 from proc3s.budget import Ledger, Spent, spent_on
 from proc3s.cli.console import Console
+from proc3s.cli.streams import json_of, print_document
 from proc3s.config import choose_llm
 from proc3s.conversation import Propose, Question, ask_llm, given_program
 from proc3s.errors import LLMError, Proc3sError, UsageError
@@ -119,11 +120,10 @@ def run_task(job: Callable[[], Job], as_json: bool) -> None:
         summary, code = Session(job(), as_json).run()
     except Proc3sError as error:
         if as_json:
-            refused = Summary(error=str(error), stopped=error.stopped)
-            typer.echo(refused.model_dump_json(indent=2))
+            print_document(json_of(Summary(error=str(error), stopped=error.stopped)))
         raise
     if as_json:
-        typer.echo(summary.model_dump_json(indent=2))
+        print_document(json_of(summary))
     raise typer.Exit(code)
 
 

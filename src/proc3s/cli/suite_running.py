@@ -11,6 +11,7 @@ from typing import Any
 import typer
 
 from proc3s.cli.benching import SUITES, made_folder
+from proc3s.cli.streams import print_document
 from proc3s.cli.suite_console import SuiteConsole
 from proc3s.config import choose_llm
 from proc3s.errors import BudgetSpent, Interrupted, Proc3sError, UsageError, did_you_mean
@@ -94,7 +95,7 @@ def _carry_out(registry: Registry, order: Order, store: Store, wanted: SuiteWant
     results = read_results(folder)
     tables = write_files(results, folder, folders_of(registry))
     if as_json:
-        typer.echo(json.dumps(document(results, tables), indent=2, ensure_ascii=False))
+        print_document(json.dumps(document(results, tables), indent=2, ensure_ascii=False))
     else:
         console.result(tables, folder)
     if left := len(remaining(spec, store)):
