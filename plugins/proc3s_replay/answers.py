@@ -7,6 +7,7 @@ from typing import Literal
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from proc3s import Completion, LLMError, Request, answer
+from proc3s.textfiles import read_text
 
 _FRONT = re.compile(r"\A---\n(.*?)\n---\n", re.DOTALL)
 
@@ -39,7 +40,7 @@ def find(folder: Path, request: Request) -> Path | None:
 def read(path: Path) -> Completion:
     """The completion in a file. Raises LLMError if it is no text, or does not say where it is from."""
     try:
-        text = path.read_text(encoding="utf-8")
+        text = read_text(path)
     except (OSError, UnicodeDecodeError) as error:
         raise LLMError(f"the answer {path} cannot be read: {error}") from error
     front = _FRONT.match(text)

@@ -20,6 +20,7 @@ from pathlib import Path
 from pydantic import BaseModel, ConfigDict, Field
 
 from proc3s import LLM, Candidate, Completion, LLMError, Pending, Request
+from proc3s.textfiles import read_text
 
 _POLL_SECONDS = 0.5
 
@@ -102,7 +103,7 @@ class _Sheet:
     def text(self) -> str:
         """The answer so far; empty while there is none. Raises LLMError if it is not text."""
         try:
-            text = self.answer.read_text(encoding="utf-8-sig") if self.answer.is_file() else ""
+            text = read_text(self.answer) if self.answer.is_file() else ""
         except UnicodeDecodeError as error:
             raise LLMError(f"the answer {self.answer} is not UTF-8 text: {error.reason}") from error
         except OSError as error:

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from proc3s import LLM, Candidate, Completion, LLMError, Request
+from proc3s.textfiles import read_text
 
 
 class Stub(LLM):
@@ -17,7 +18,7 @@ class Stub(LLM):
 
     def __init__(self, path: str, options: None) -> None:
         try:
-            script = json.loads(Path(path).read_text(encoding="utf-8"))
+            script = json.loads(read_text(Path(path)))
         except (OSError, ValueError) as error:
             raise LLMError(f"the script {path!r} cannot be read: {error}") from error
         self._rounds = [_candidates(element) for element in script] if isinstance(script, list) else []

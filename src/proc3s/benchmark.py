@@ -26,6 +26,7 @@ from proc3s.registry import Registry
 from proc3s.samplers import Space
 from proc3s.solving import Search
 from proc3s.specs import DomainSpec, ExecutorSpec
+from proc3s.textfiles import read_text
 
 _SCENE = "# scene:"
 _BATCHES = (64, 192, 768, 1024)
@@ -121,7 +122,7 @@ def _cases_of(spec: DomainSpec) -> Iterator[Case]:
         if task not in spec.tasks:
             hint = did_you_mean(task, spec.tasks)
             raise UsageError(f"{path}: domain {spec.name} has no task {task!r}{hint}")
-        program = path.read_text(encoding="utf-8")
+        program = read_text(path)
         yield Case(f"{spec.name}/{task}", name, program, _scene(program))
 
 

@@ -110,7 +110,7 @@ class _Reader:
 
     def _parse(self, number: int, line: bytes) -> Any:
         try:
-            return json.loads(line.decode("utf-8"))
+            return json.loads(line.decode("utf-8-sig" if number == 1 else "utf-8"))
         except (ValueError, RecursionError) as error:
             raise self._foreign() if number == 1 else self._damaged(number, f"no JSON: {error}") from error
 

@@ -12,6 +12,7 @@ from pydantic import Field
 from proc3s.errors import UsageError
 from proc3s.specfile import validate
 from proc3s.specs import Spec
+from proc3s.textfiles import read_text
 
 VARIABLE = "PROC3S_LLM"
 FILE = "proc3s.toml"
@@ -81,7 +82,7 @@ def _configured() -> Iterator[ChosenLLM]:
 
 def _read(path: Path) -> Config:
     try:
-        return validate(Config, tomllib.loads(path.read_text(encoding="utf-8")), str(path))
+        return validate(Config, tomllib.loads(read_text(path)), str(path))
     except (OSError, UnicodeDecodeError) as error:
         raise UsageError(f"{path} cannot be read: {error}") from error
     except tomllib.TOMLDecodeError as error:

@@ -18,6 +18,7 @@ from proc3s.separation import BoundHit, Separation
 from proc3s.setup_code import setup_code
 from proc3s.specs import ExampleSpec, MethodSpec, PresetSpec
 from proc3s.state import State, source_text
+from proc3s.textfiles import read_text
 
 _TURN = re.compile(r"^<!-- (answer|feedback) -->\n", re.MULTILINE)
 
@@ -114,7 +115,7 @@ class Prompter:
 
 def _environment(folders: Sequence[Path]) -> ImmutableSandboxedEnvironment:
     environment = ImmutableSandboxedEnvironment(
-        loader=jinja2.FileSystemLoader(folders),
+        loader=jinja2.FileSystemLoader(folders, encoding="utf-8-sig"),
         undefined=jinja2.StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
@@ -161,5 +162,5 @@ def example_turns(problem: Problem, example: ExampleSpec, kind: str) -> list[tup
     path = folder / "examples" / f"{example.name}.{kind}.md"
     if not path.is_file():
         raise SpecError([Issue(str(path), f"examples.{example.name}", "is missing")])
-    parts = _TURN.split("<!-- answer -->\n" + path.read_text(encoding="utf-8"))[1:]
+    parts = _TURN.split("<!-- answer -->\n" + read_text(path))[1:]
     return [(turn, text.strip() + "\n") for turn, text in zip(parts[::2], parts[1::2], strict=True)]

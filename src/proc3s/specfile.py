@@ -12,6 +12,7 @@ from pydantic import BaseModel, ValidationError
 from proc3s.errors import Issue, SpecError, blame, did_you_mean
 from proc3s.specs import DomainSpec, Spec
 from proc3s.state import SCALARS, split_type
+from proc3s.textfiles import read_text
 
 Loc: TypeAlias = tuple[str | int, ...]
 S = TypeVar("S", bound=Spec)
@@ -53,7 +54,7 @@ class _Document:
         self.issues: list[tuple[Loc, int, str]] = []
         self.data: Any = None
         try:
-            node = yaml.compose(path.read_text(encoding="utf-8"), Loader=_Loader)
+            node = yaml.compose(read_text(path), Loader=_Loader)
         except yaml.MarkedYAMLError as error:
             mark = error.problem_mark or error.context_mark
             self.issues.append(((), mark.line + 1 if mark else 1, f"not valid YAML: {error.problem}"))

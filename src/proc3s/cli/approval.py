@@ -12,6 +12,7 @@ from proc3s.errors import UsageError
 from proc3s.registry import Registry
 from proc3s.runs import markdown
 from proc3s.specs import DomainSpec, MethodSpec
+from proc3s.textfiles import read_text
 
 
 def check(registry: Registry, folder: Path, within: str | None, update: bool, given: dict[str, Any]) -> int:
@@ -55,7 +56,10 @@ def _verdict(changed: int, update: bool) -> str:
 
 
 def _read(path: Path) -> str | None:
-    return path.read_text(encoding="utf-8") if path.is_file() else None
+    try:
+        return read_text(path) if path.is_file() else None
+    except UnicodeDecodeError as error:
+        raise UsageError(f"{path} is no UTF-8 text: {error.reason}") from error
 
 
 def _orphans(registry: Registry, folder: Path, rendered: Mapping[str, str]) -> Iterator[Path]:

@@ -18,6 +18,7 @@ from proc3s.options import RunOptions, make_problem, make_prompter
 from proc3s.past import answers_of
 from proc3s.registry import Registry
 from proc3s.runs import LOG, events_of, markdown, read_events, started
+from proc3s.textfiles import read_text
 
 
 def render(registry: Registry, options: RunOptions, round_: int, run: Path | None) -> tuple[Message, ...]:
@@ -82,7 +83,10 @@ def _earlier(path: Path, format_: str, round_: int) -> str:
         return _formatted(tuple(Message.model_validate(m) for m in prompts[0]["messages"]), format_)
     if not path.is_file():
         raise UsageError(f"there is no rendering or run {path}")
-    return path.read_text(encoding="utf-8")
+    try:
+        return read_text(path)
+    except (OSError, UnicodeDecodeError) as error:
+        raise UsageError(f"the rendering {path} cannot be read: {error}") from error
 
 
 def unified_diff(old: str, new: str, old_name: str, new_name: str) -> Iterator[str]:

@@ -44,6 +44,7 @@ from proc3s.registry import open_registry
 from proc3s.runs import RunFolder, events_of, new_folder, options_of, versions
 from proc3s.specfile import validate
 from proc3s.summary import Summary, summarize
+from proc3s.textfiles import read_text
 
 _OPTION_LISTS = ("domain_options", "method_options", "solver_options", "llm_options", "limits")
 _MAY_CHANGE = {"llm", "llm_options", "llm_jobs", "jobs", "executor", "record", "budget", "limits"}
@@ -85,7 +86,7 @@ def with_llm(options: RunOptions) -> RunOptions:
 def read_program(path: Path) -> str:
     """The text of a program. Raises UsageError if it cannot be read."""
     try:
-        return path.read_text(encoding="utf-8")
+        return read_text(path)
     except (OSError, UnicodeDecodeError) as error:
         raise UsageError(f"the program {path} cannot be read: {error}") from error
 

@@ -21,6 +21,7 @@ from proc3s.setup_code import setup_code
 from proc3s.sketch import BoxedSketch, Program, SketchError, extract_program
 from proc3s.specs import MethodSpec
 from proc3s.state import Plan, PlanBatch, source_text
+from proc3s.textfiles import read_text
 
 SEEDS = 4
 """Scenes of every task that are looked at."""
@@ -83,7 +84,7 @@ class Subject:
             seeds = [int(part.removeprefix("seed")) for part in rest if part.startswith("seed")]
             if task in self.spec.tasks and template in kinds:
                 problem = self.problem(task, seeds[0] if seeds else 0)
-                yield self._answer(path.name, path, path.read_text("utf-8"), kinds[template], problem)
+                yield self._answer(path.name, path, read_text(path), kinds[template], problem)
 
     def _of_examples(self) -> Iterator[Answer]:
         for example in self.spec.examples.values():

@@ -27,7 +27,7 @@ class Words:
 
     def __init__(self, folders: Sequence[Path], html: bool = False) -> None:
         self._environment = ImmutableSandboxedEnvironment(
-            loader=jinja2.FileSystemLoader(folders),
+            loader=jinja2.FileSystemLoader(folders, encoding="utf-8-sig"),
             undefined=jinja2.StrictUndefined,
             trim_blocks=True,
             lstrip_blocks=True,

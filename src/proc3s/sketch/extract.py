@@ -9,6 +9,8 @@ from itertools import chain
 from proc3s.sketch.blocks import Block, bare, fenced, marked_up
 from proc3s.sketch.errors import SketchContractError
 
+_MARK = "\ufeff"
+"""A byte-order mark: nothing that is seen, and no Python."""
 _PYTHON = {"python", "python3", "py"}
 _ROLES = ("gen_plan", "gen_domain")
 _PROGRAM = re.compile(r"(?:async[ \t]++)?def gen_plan\b|gen_plan[ \t]*+(?::[^=\n]*+)?=(?!=)")
@@ -52,6 +54,7 @@ def extract(answer: str) -> Extract:
     Blocks are fences, or else `<code>` elements, or else statements between prose. Where no block defines
     gen_plan, its python fences joined, else all fences. Raises SketchContractError if there is none.
     """
+    answer = answer.replace(_MARK, "")
     fences = fenced(answer)
     for blocks in (fences, list(marked_up(answer))):
         if chosen := _chosen(blocks):

@@ -11,6 +11,7 @@ from proc3s.suites.episode import Episode
 from proc3s.suites.outcomes import Unfinished, Word
 from proc3s.suites.spec import Cell, SuiteSpec
 from proc3s.suites.store import Store, Verdict
+from proc3s.textfiles import read_text
 
 
 @dataclass(frozen=True)
@@ -123,14 +124,13 @@ def read_figures(path: Path | None) -> Figures:
     if path is None:
         return {}
     try:
-        with path.open(encoding="utf-8", newline="") as file:
-            return {
-                (row["quantity"], row["method"], f"{row['domain']}/{row['task']}"): (
-                    float(row["mean"]),
-                    float(row["std"]) if row["std"] else None,
-                )
-                for row in csv.DictReader(file)
-                if row["mean"]
-            }
+        return {
+            (row["quantity"], row["method"], f"{row['domain']}/{row['task']}"): (
+                float(row["mean"]),
+                float(row["std"]) if row["std"] else None,
+            )
+            for row in csv.DictReader(read_text(path).splitlines(keepends=True))
+            if row["mean"]
+        }
     except (OSError, KeyError, ValueError) as error:
         raise UsageError(f"the published figures {path} cannot be read: {error}") from error
