@@ -158,9 +158,10 @@ def _replayed(recording: Recording, request: Request, *notes: str) -> Completion
 
 def _drawn_otherwise(recording: Recording, request: Request) -> Iterator[str]:
     """What to say of an answer that was drawn with other call options than those of this run."""
-    if recording.sampling is None:
+    drawn = recording.sampling or recording.completion.sampling
+    if drawn is None:
         return
-    then, now = recording.sampling.model_dump(), request.sampling.model_dump()
+    then, now = drawn.model_dump(), request.sampling.model_dump()
     names = [n for n in _CALL_OPTIONS if then[n] != now[n] and n not in recording.completion.dropped]
     if request.candidate:
         names = [name for name in names if name != "n"]  # what one call did not bring was asked for alone

@@ -12,7 +12,6 @@ from typing import Any
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from proc3s import runs
-from proc3s.asking import CallOptions
 from proc3s.cassettes import Cassette
 from proc3s.errors import LLMError, UsageError
 from proc3s.llms import LLM, Completion, Message, Request, Sampling, digest
@@ -38,7 +37,7 @@ class Recording(BaseModel):
     take: str
     """Names the run that it was recorded in; the same episode may be recorded any number of times."""
     sampling: Sampling | None
-    """How the answer was drawn; None where nobody knows, or no model was asked."""
+    """What was asked for; None in a run folder, and where no model was asked."""
     sha256: str
     """Digest of the messages."""
     messages: tuple[Message, ...]
@@ -163,32 +162,17 @@ def _of_run(run: Path) -> list[Recording]:
     """The answers of a run. What it was given again when it was resumed counts once."""
     options = runs.started(run)["options"]
     episode = {name: options[name] for name in ("task", "method", "seed")}
-    sampling = _sampling(options)
     prompts: dict[int, dict[str, Any]] = {}
     found: dict[tuple[int, int, str, Completion], Recording] = {}
     for number, event in enumerate(runs.read_events(run), start=1):
-        if event["event"] == "run_resumed":
-            sampling = _sampling(event["options"])
-        elif event["event"] == "prompt_rendered":
+        if event["event"] == "prompt_rendered":
             prompts[event["round"]] = {name: event[name] for name in ("sha256", "messages")}
         elif event["event"] == "answer_received":
             given = {name: event.get(name) for name in ("round", "candidate", "time", "completion")}
-            given |= episode | prompts.get(event["round"], {}) | {"take": str(run)}
-            given["sampling"] = sampling if event["completion"]["source"] == "live" else None
+            given |= episode | prompts.get(event["round"], {}) | {"take": str(run), "sampling": None}
             one = _checked(given, f"{run / runs.LOG}:{number}")
             found.setdefault((one.round, one.candidate, one.sha256, one.completion), one)
     return list(found.values())
-
-
-def _sampling(options: Mapping[str, Any]) -> Sampling | None:
-    """How the answers of a run with these options were drawn; None if they do not say."""
-    if "llm_options" not in options:
-        return None
-    given = {n: v for n, v in options["llm_options"].items() if n in CallOptions.model_fields}
-    try:
-        return CallOptions.model_validate(given).sampling(options["seed"], options.get("candidates", 1))
-    except ValidationError:
-        return None
 
 
 def _checked(data: Mapping[str, Any], where: str) -> Recording:

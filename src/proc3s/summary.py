@@ -12,6 +12,7 @@ from proc3s.feedback import Diagnosis, Failure
 from proc3s.grounding import Setup
 from proc3s.options import RunOptions
 from proc3s.planner import Outcome
+from proc3s.state import Plan
 
 
 class Summary(BaseModel):
@@ -60,7 +61,8 @@ class Summary(BaseModel):
     cpu_seconds: dict[str, float] = {}
     """CPU seconds by stage, those of child processes included."""
     plan: list[dict[str, Any]] | None = None
-    """The plan that was carried out: `skill` and `args` of every step."""
+    """The plan that was carried out, or else could not be though a world accepted it: `skill` and `args` of
+    every step."""
     violations: list[dict[str, Any]] = []
     """What that plan violates; without one, the failures of the last round."""
     program_errors: list[dict[str, Any]] = []
@@ -88,6 +90,7 @@ def summarize(
     execution = outcome.execution
     last = _last(outcome)
     wall, cpu = outcome.clock.totals()
+    plan = execution.plan if execution else _accepted(outcome)
     sources = {proposal.source for proposal in outcome.proposals}
     return Summary(
         task=options.task,
@@ -110,7 +113,7 @@ def summarize(
         rejected_by=_rejected_by(outcome),
         seconds=_seconds(outcome.clock.wall, wall),
         cpu_seconds=_seconds(outcome.clock.cpu, cpu),
-        plan=[action.to_json() for action in execution.plan] if execution else None,
+        plan=[action.to_json() for action in plan] if plan else None,
         nearest=None if execution and execution.executed == "solution" else _nearest(outcome),
         usage=usage,
         violations=_violations(outcome, last),
@@ -127,6 +130,12 @@ def _last(outcome: Outcome) -> Diagnosis:
         return Diagnosis(samples=0)
     latest = outcome.rounds[-1]
     return latest.attempts[latest.best].diagnosis
+
+
+def _accepted(outcome: Outcome) -> Plan | None:
+    """A plan that a world has accepted; it is told even if it could not be carried out."""
+    found = (attempt.solution.plan for attempt in outcome.attempts if attempt.solution)
+    return next((plan for plan in found if plan), None)
 
 
 def _nearest(outcome: Outcome) -> dict[str, Any] | None:

@@ -40,3 +40,18 @@ def test_the_log_has_both(executed, events):
     run = Path(executed(3.0).json["run_dir"])
     (event,) = events(run, "plan_executed")
     assert (event["goal_expected"], event["goal_reached"]) == (True, False)
+
+
+def test_an_accepted_plan_is_told_even_if_it_cannot_be_carried_out(cli, here):
+    (here / "plan.py").write_text(PLAN.format(by=3.0))
+    for name in ("slip.py", "slip.yaml"):
+        text = Path(__file__).with_name(name).read_text(encoding="utf-8")
+        full = 'def observe(self):\n        raise OSError(28, "No space left on device")'
+        (here / name).write_text(text.replace("def observe(self):", full))
+    plugins = ("--plugin", Path(__file__).with_name("walk.py"), "--plugin", here / "slip.py")
+    args = ("solve", "slip/far", *plugins, "--sketch", "plan.py", "--method", "llm3", "--no-check-goal")
+    done = cli(*args, "--json")
+    assert done.code == 2
+    assert "No space left on device" in done.json["error"]
+    assert (done.json["executed"], done.json["plan"]) == ("none", [{"skill": "hop", "args": [3.0]}])
+    assert "hop(3.00)" in cli(*args).stdout

@@ -464,3 +464,11 @@ def test_an_option_that_the_provider_did_not_take_is_no_difference(tmp_path):
 def test_nobody_knows_how_a_person_answered(tmp_path):
     record(tmp_path / "c.jsonl", (drawn(temperature=0.0), plain_answer("x", "a person", "manual")))
     assert replay(tmp_path / "c.jsonl").complete(drawn(temperature=1.0)).notes == ()
+
+
+def test_the_log_of_a_run_says_how_its_answers_were_drawn(tmp_path):
+    live = plain_answer("x", "gpt-x").model_copy(update={"sampling": Sampling(temperature=0.7)})
+    run_folder(tmp_path / "run", (request(), live))
+    (note,) = replay(tmp_path / "run").complete(drawn(temperature=0.0)).notes
+    assert "temperature 0.7, not 0.0" in note
+    assert replay(tmp_path / "run").complete(drawn(temperature=0.7)).notes == ()
