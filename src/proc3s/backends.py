@@ -98,6 +98,17 @@ def patient(
     return Patient(llm, chosen.name, Account(budget, price, ledger, record), chosen.call, report)
 
 
+def price_of(chosen: Chosen) -> Price | None:
+    """What tokens cost, if anybody knows; asked only where answers have a bound, since finding out may take
+    seconds."""
+    if chosen.call.price is not None or chosen.call.max_tokens is None:
+        return chosen.call.price
+    try:
+        return chosen.make().price
+    except LLMError:  # a call says it better
+        return None
+
+
 def _known_price(chosen: Chosen, llm: LLM) -> Price:
     with blame(f"llm {chosen.spec.name}"):
         price: Price | None = llm.price

@@ -55,7 +55,7 @@ class RunOptions(specs.Spec):
     robust: int = Field(0, ge=0)
     check_goal: bool | None = None
     candidates: int = Field(1, ge=1)
-    llm_jobs: int = Field(1, ge=1)
+    llm_jobs: int | None = Field(None, ge=1)
     record: Path | None = None
     budget: Budget = Budget()
 

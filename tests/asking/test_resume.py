@@ -192,7 +192,9 @@ def test_candidates_that_came_are_kept_when_it_is_killed(
 
 def test_control_c_makes_no_further_calls(background, eventually, script, texts, asked):
     slow = [{"texts": [texts.hopeless], "seconds": 3}] * 5
-    with background("run", "drawing/star", *script(*slow), "--candidates", 5, "--out", "r") as process:
+    with background(
+        "run", "drawing/star", *script(*slow), "--candidates", 5, "--llm-jobs", 1, "--out", "r"
+    ) as process:
         eventually(lambda: len(asked()) == 2)
         process.send_signal(signal.SIGINT)
         process.wait(2.5)

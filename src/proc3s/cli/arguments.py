@@ -18,7 +18,7 @@ Candidates: TypeAlias = Annotated[
     int | None, typer.Option("--candidates", min=1, help="programs asked for at once; they race")
 ]
 LlmJobs: TypeAlias = Annotated[
-    int | None, typer.Option("--llm-jobs", min=1, help="calls to the LLM in flight")
+    int | None, typer.Option("--llm-jobs", min=1, help="calls to the LLM in flight  [default: --candidates]")
 ]
 Record: TypeAlias = Annotated[
     Path | None, typer.Option("--record", help="cassette (.jsonl or folder) that keeps every answer")

@@ -82,21 +82,21 @@ class Console:
         """Show what an event says."""
         if isinstance(event, PromptRendered):
             size = sum(len(message.text) for message in event.messages)
-            self._say(f"round {event.round}: asking {self._options.llm} ({size} characters)")
+            self.say(f"round {event.round}: asking {self._options.llm} ({size} characters)")
         elif isinstance(event, CallFailed):
-            self._say(f"round {event.round}: {event.message}; trying again in {event.wait:.1f} s")
+            self.say(f"round {event.round}: {event.message}; trying again in {event.wait:.1f} s")
         elif isinstance(event, Warned):
-            self._say(f"round {event.round}: {event.text}")
+            self.say(f"round {event.round}: {event.text}")
         elif isinstance(event, AnswerReceived):
             self._answered(event.round, event.completion)
         elif isinstance(event, ProgramExtracted) and event.blocks:
-            self._say(f"round {event.round}: the program is {event.blocks} in the answer")
+            self.say(f"round {event.round}: the program is {event.blocks} in the answer")
         elif isinstance(event, SketchLoaded):
             self._loaded(event)
         elif isinstance(event, BatchEvaluated):
             self._sampled(event)
         elif isinstance(event, Audited):
-            self._say(f"round {event.round}: audit: {len(event.wrong)} of {event.checked} rejects were wrong")
+            self.say(f"round {event.round}: audit: {len(event.wrong)} of {event.checked} rejects were wrong")
         elif isinstance(event, RoundEnded):
             self._diagnosis(event.round, event.diagnosis)
 
@@ -104,21 +104,22 @@ class Console:
         source, count = completion.source, len(completion.candidates)
         whose = "" if source == "authored" else f" from {completion.model}"
         many = f", {count} candidates" if count > 1 else ""
-        self._say(f"round {round_}: {_ORIGIN.get(source, 'an answer')}{whose}{many}{_cost(completion)}")
+        self.say(f"round {round_}: {_ORIGIN.get(source, 'an answer')}{whose}{many}{_cost(completion)}")
         for name in completion.dropped:
             if name not in self._lost:
-                self._say(f"round {round_}: {completion.model} does not support {name}{_LOST.get(name, '')}")
+                self.say(f"round {round_}: {completion.model} does not support {name}{_LOST.get(name, '')}")
         self._lost.update(completion.dropped)
         for note in completion.notes:
-            self._say(f"round {round_}: {note}")
+            self.say(f"round {round_}: {note}")
 
-    def _say(self, text: str) -> None:
+    def say(self, text: str) -> None:
+        """A line on stderr."""
         self._err.print(escape(text))
 
     def _loaded(self, event: SketchLoaded) -> None:
         listed = ", ".join(event.parameters)
         shown = listed if len(listed) <= 100 else f"{listed[:100]}…"
-        self._say(
+        self.say(
             f"round {event.round}: a program with {len(event.parameters)} open parameters {shown}".rstrip()
         )
         self._why.clear()
@@ -139,9 +140,9 @@ class Console:
 
     def _diagnosis(self, round_: int, diagnosis: Diagnosis) -> None:
         self._progress.update(self._task, visible=False)
-        self._say(f"round {round_}: no plan was accepted ({diagnosis.samples} samples)")
+        self.say(f"round {round_}: no plan was accepted ({diagnosis.samples} samples)")
         for failure in (*diagnosis.program_errors, *diagnosis.failures)[:3]:
-            self._say(f"  {failure.share:3d} %  {describe(failure)}")
+            self.say(f"  {failure.share:3d} %  {describe(failure)}")
 
     def result(self, summary: Summary) -> None:
         """The outcome in a few lines on stdout."""

@@ -9,7 +9,7 @@ from typing import Any
 
 import typer
 
-from proc3s.backends import find_llm, patient
+from proc3s.backends import find_llm, patient, price_of
 from proc3s.budget import Ledger, Spent, spent_on
 from proc3s.cli.console import Console
 from proc3s.cli.streams import json_of, print_document
@@ -27,6 +27,7 @@ from proc3s.events import (
     RunStarted,
     Unwritten,
 )
+from proc3s.expense import bound_of, in_words
 from proc3s.limits import box_limits
 from proc3s.llms import Request, Source
 from proc3s.options import (
@@ -206,6 +207,7 @@ class Session:
         self._recorded = {(a.round, a.candidate): a.completion for a in self._past.answers}
         self._emitting = threading.Lock()
         self._unwritten: list[str] = []
+        self._most: str | None = None
         self._ask = self._asker() if job.given is None else None
         self._console = Console(self._options, self._problem.samples, quiet)
 
@@ -217,6 +219,8 @@ class Session:
         self._folder = RunFolder(path, resume=job.past is not None)
         try:
             self._emit(self._begun())
+            if self._most:
+                self._console.say(f"{options.llm}: {self._most}")
             with self._console:
                 outcome = plan(setup, self._propose(), self._emit, self._past.rounds, self._past.clock())
             summary = self._complete(summarize(options, setup, outcome, path, self._spent()))
@@ -261,11 +265,13 @@ class Session:
             self._problem,
             make_prompter(self._registry, options, self._problem),
             chosen.call.sampling(options.seed, options.candidates),
-            options.llm_jobs,
+            options.llm_jobs or options.candidates,
         )
         question.prompter.rehearse(self._problem)
         llm = patient(chosen, options.budget, self._past.ledger, self._charged, self._call_failed)
         llm.prepare()
+        if llm.live and not self._past.rounds:
+            self._most = in_words(bound_of(question, price_of(chosen)), options.budget)
         if options.record is not None:
             llm = Recorder(llm, options.record, self._past.id)
         return lambda: ask_llm(Remembering(llm, self._past.answers), question, self._emit)

@@ -10,11 +10,13 @@ from typing import Any
 
 import typer
 
+from proc3s.budget import Budget
 from proc3s.cli.benching import SUITES, made_folder
 from proc3s.cli.streams import print_document
 from proc3s.cli.suite_console import SuiteConsole
 from proc3s.config import choose_llm
 from proc3s.errors import BudgetSpent, Interrupted, Proc3sError, UsageError, did_you_mean
+from proc3s.expense import in_words
 from proc3s.limits import clock_only, make_limits
 from proc3s.options import key_values
 from proc3s.registry import Registry, open_registry
@@ -63,7 +65,10 @@ def run_suite(wanted: SuiteWanted, as_json: bool) -> None:
     registry = open_registry(wanted.plugins)
     spec = _spec(registry, wanted)
     order = _order(registry, wanted, spec)
-    check_order(registry, order, _to_do(spec, wanted.resume))
+    cells = _to_do(spec, wanted.resume)
+    if (most := check_order(registry, order, cells)) and not as_json:
+        limits = in_words(most, Budget(max_cost=order.max_cost or None))
+        typer.echo(f"proc3s: {order.llm} for {count(len(cells), 'episode')}: {limits}", err=True)
     folder = wanted.resume or made_folder(wanted.out, spec.name)
     with alone_in(folder):
         _carry_out(registry, order, Store(folder, make=wanted.resume is None), wanted, as_json)
