@@ -41,8 +41,11 @@ class Sketch(Protocol):
 Confirm: TypeAlias = Callable[[Trial], SketchError | None]
 
 
-_FIRST = (4, 16)
-"""So many samples are grounded at first: an easy problem with a slow program does not need the others."""
+ALIKE = 64
+"""A search ends if so many samples, the first, all raised the same exception at the same line."""
+_FIRST = (4, 16, ALIKE - 20)
+"""So many samples are grounded at first: an easy problem with a slow program does not need the others, nor
+does a program that always fails."""
 
 
 class Evaluator:

@@ -7,11 +7,13 @@ from dataclasses import dataclass
 
 from pydantic import BaseModel, ConfigDict
 
+from proc3s.circumstances import circumstances
 from proc3s.constraints import Violation
 from proc3s.problem import Problem, Trial
 from proc3s.samplers import Space
 from proc3s.separation import BoundHit, Separation, bound_hits, separations
-from proc3s.sketch.errors import SketchError
+from proc3s.shares import shares
+from proc3s.sketch.errors import SketchError, SketchTimeout
 
 _NUMBER = re.compile(r"-?\d+(\.\d+)?")
 _TEXTS = 3
@@ -34,7 +36,9 @@ class Failure(BaseModel):
     source: str | None = None
     """That line."""
     share: int
-    """Percent of the samples, rounded to 5 so that the text is stable."""
+    """Percent of the samples, as `shares` rounds it so that the text is stable."""
+    parameters: str = ""
+    """In which samples an error occurred, if not in all: the parameters that tell them from the others."""
 
 
 class ConstraintReport(BaseModel):
@@ -44,7 +48,7 @@ class ConstraintReport(BaseModel):
 
     constraint: str
     share: int
-    """Percent of the samples whose first violation it is, rounded to 5."""
+    """Percent of the samples whose first violation it is, as `shares` rounds it."""
     steps: tuple[int, ...]
     """Steps at which it was violated, from 0."""
     texts: tuple[str, ...]
@@ -60,6 +64,8 @@ class Diagnosis(BaseModel):
 
     samples: int
     """Verdicts taken in the round."""
+    alike: bool = False
+    """These first samples all raised the same exception at the same line, so that no more were drawn."""
     reached: int = 0
     """Most steps that any sample carried out before its first violation."""
     failures: tuple[Failure, ...] = ()
@@ -97,6 +103,7 @@ def diagnose(
     problem: Problem | None = None,
     space: Space | None = None,
     reviewed: Sequence[Trial] = (),
+    alike: bool = False,
 ) -> Diagnosis:
     """Rank the first failures of trials; `error` is what ended the program, if something did.
 
@@ -107,13 +114,16 @@ def diagnose(
     """
     failed = [trial for trial in trials if not trial.accepted]
     weighed = _weighed(failed, problem, reviewed)
-    reports = _by_constraint(weighed)
+    failures = _ranked(weighed, trials, space)
+    errors = sum(failure.share for failure in failures if failure.step is None)
+    reports = _by_constraint(weighed, len(trials), 100 - errors)
     names = list(problem.domain.spec.constraints) if problem else []
     violated = {report.constraint for report in reports}
     return Diagnosis(
         samples=len(trials),
         reached=max((one.trial.reached for one in weighed), default=0),
-        failures=_ranked(weighed, len(trials)),
+        failures=failures,
+        alike=alike,
         program_errors=_program_errors(error) if error else (),
         constraints=reports,
         never_violated=tuple(name for name in names if trials and name not in violated),
@@ -132,19 +142,37 @@ def _weighed(failed: Sequence[Trial], problem: Problem | None, reviewed: Sequenc
     return sure + [_Failed(trial, weight) for trial in reviewed if not trial.accepted]
 
 
-def _ranked(failed: Sequence[_Failed], samples: int) -> tuple[Failure, ...]:
-    counts: defaultdict[tuple[object, ...], float] = defaultdict(float)
-    firsts: dict[tuple[object, ...], Failure] = {}
+def _ranked(failed: Sequence[_Failed], trials: Sequence[Trial], space: Space | None) -> tuple[Failure, ...]:
+    groups: defaultdict[tuple[object, ...], list[_Failed]] = defaultdict(list)
     for one in failed:
-        failure = _first_failure(one.trial)
-        # Reasons of judges and messages of errors are full of numbers that differ from sample to sample.
-        exact = failure.step is not None and failure.skill != "goal"
-        text = failure.text if exact else _NUMBER.sub("#", failure.text)
-        key = (failure.kind, failure.step, failure.skill, failure.line, text)
-        counts[key] += one.weight
-        firsts.setdefault(key, failure)
-    ranked = sorted(counts, key=lambda key: (-counts[key], firsts[key].step or 0, firsts[key].text))
-    return tuple(firsts[k].model_copy(update={"share": _percent(counts[k], samples)}) for k in ranked)
+        groups[_sort(_first_failure(one.trial))].append(one)
+    counts = {key: sum(one.weight for one in group) for key, group in groups.items()}
+    firsts = {key: _first_failure(group[0].trial) for key, group in groups.items()}
+    ranked = sorted(groups, key=lambda key: (-counts[key], firsts[key].step or 0, firsts[key].text))
+    percents = shares([counts[key] for key in ranked], len(trials))
+    return tuple(
+        firsts[key].model_copy(update={"share": share, "parameters": _parameters(groups[key], trials, space)})
+        for key, share in zip(ranked, percents, strict=True)
+    )
+
+
+def _sort(failure: Failure) -> tuple[object, ...]:
+    """Failures with the same are one."""
+    # Reasons of judges and messages of errors are full of numbers that differ from sample to sample.
+    exact = failure.step is not None and failure.skill != "goal"
+    text = failure.text if exact else _NUMBER.sub("#", failure.text)
+    # A loop without end is met at any of its lines.
+    line = None if failure.kind == SketchTimeout.__name__ else failure.line
+    return failure.kind, failure.step, failure.skill, line, text
+
+
+def _parameters(group: Sequence[_Failed], trials: Sequence[Trial], space: Space | None) -> str:
+    """In which samples the program failed so, if it is an error."""
+    if space is None or group[0].trial.error is None:
+        return ""
+    indices = {one.trial.index for one in group}
+    others = [trial for trial in trials if trial.index not in indices]
+    return circumstances([one.trial for one in group], others, space)
 
 
 def _first_failure(trial: Trial) -> Failure:
@@ -156,21 +184,21 @@ def _first_failure(trial: Trial) -> Failure:
     return Failure(kind=error.kind, text=error.message, line=error.line, source=error.source, share=0)
 
 
-def _by_constraint(failed: Sequence[_Failed]) -> tuple[ConstraintReport, ...]:
+def _by_constraint(failed: Sequence[_Failed], samples: int, room: int) -> tuple[ConstraintReport, ...]:
     found: defaultdict[str, list[tuple[Violation, float]]] = defaultdict(list)
     for one in failed:
         if one.trial.violations:
             found[one.trial.violations[0].constraint].append((one.trial.violations[0], one.weight))
-    total = sum(one.weight for one in failed)
+    percents = shares([sum(weight for _, weight in told) for told in found.values()], samples, room)
     reports = [
         ConstraintReport(
             constraint=name,
-            share=_percent(sum(weight for _, weight in told), total),
+            share=share,
             steps=tuple(sorted({violation.step for violation, _ in told})),
             texts=tuple(text for text, _ in Counter(v.text for v, _ in told).most_common(_TEXTS)),
             best_margin=max(violation.margin for violation, _ in told),
         )
-        for name, told in found.items()
+        for (name, told), share in zip(found.items(), percents, strict=True)
     ]
     return tuple(sorted(reports, key=lambda report: (-report.share, report.constraint)))
 
@@ -180,7 +208,3 @@ def _program_errors(error: SketchError) -> tuple[Failure, ...]:
     return tuple(
         Failure(kind=error.kind, text=i.message, line=i.line, source=i.source, share=100) for i in issues
     )
-
-
-def _percent(part: float, whole: float) -> int:
-    return max(5, 5 * round(20 * part / whole))

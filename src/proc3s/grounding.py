@@ -55,8 +55,10 @@ class Opened:
 
 
 @contextmanager
-def open_sketch(setup: Setup) -> Iterator[Opened]:
-    """Load the program of the problem in a box of its own. Raises SketchError."""
+def open_sketch(setup: Setup, probe: bool = True) -> Iterator[Opened]:
+    """Load the program of the problem in a box of its own, and draw some plans to check unless it was done
+    before. Raises SketchError.
+    """
     problem, method = setup.problem, setup.method
     program = Program(
         source=problem.program,
@@ -67,12 +69,14 @@ def open_sketch(setup: Setup) -> Iterator[Opened]:
         samplers=problem.domain.samplers,
         seed=problem.seed,
     )
-    with BoxedSketch(program, setup.limits, locked=setup.locked) as boxed:
+    with BoxedSketch(program, setup.limits, locked=setup.locked, probe=probe) as boxed:
         if method.fallback == "none" and method.perturb == "none":
             yield Opened(boxed, boxed.log)
             return
         centre = boxed.plans(np.full((1, boxed.space.dim), 0.5), first=0)
-        plan = centre.plan(0)
+        if centre.errors and (method.perturb == "gaussian" or method.samples == "none"):
+            raise centre.errors[0]  # there is nothing to perturb, or to carry out
+        plan = None if centre.errors else centre.plan(0)
         yield Opened(Jitter(centre) if method.perturb == "gaussian" else boxed, boxed.log, plan)
 
 
@@ -97,7 +101,7 @@ class Repeatable:
 
     def _difference(self, trial: Trial) -> SketchError | None:
         try:
-            with open_sketch(self._setup) as again:
+            with open_sketch(self._setup, probe=False) as again:
                 batch = again.sketch.plans(np.array([trial.u]), trial.index)
         except SketchError as error:
             return error

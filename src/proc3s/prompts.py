@@ -16,6 +16,7 @@ from proc3s.llms import Message, Role
 from proc3s.problem import Problem
 from proc3s.separation import BoundHit, Separation
 from proc3s.setup_code import setup_code
+from proc3s.shares import portion
 from proc3s.specs import ExampleSpec, MethodSpec, PresetSpec
 from proc3s.state import State, source_text
 from proc3s.textfiles import read_text
@@ -122,7 +123,7 @@ def _environment(folders: Sequence[Path]) -> ImmutableSandboxedEnvironment:
         keep_trailing_newline=True,
         autoescape=False,
     )
-    environment.filters["state_text"] = state_text
+    environment.filters |= {"state_text": state_text, "portion": portion}
     return environment
 
 

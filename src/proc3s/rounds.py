@@ -162,7 +162,7 @@ def _attempt(entrant: Entrant, proposal: Proposal, emit: Emit) -> Attempt:
     if not search.broken_off and not search.solution:
         reviewed = entrant.review.check(setup.problem, setup.executor).world
     return Attempt(
-        diagnosis=diagnose(search.trials, search.halted, setup.problem, search.space, reviewed),
+        diagnosis=diagnose(search.trials, search.halted, setup.problem, search.space, reviewed, search.alike),
         round=proposal.round,
         candidate=proposal.candidate,
         solution=search.solution,

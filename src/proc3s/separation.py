@@ -11,8 +11,9 @@ from proc3s.state import FloatArray
 
 _FEWEST_SAMPLES = 40
 _BEST_SHARE = 0.1
-_FEWEST_BEST = 8
-_DISTANCE = 0.4
+FEWEST_BEST = 8
+"""With fewer samples nothing is told apart."""
+DISTANCE = 0.4
 """Kolmogorov-Smirnov distance above which two distributions of a parameter are told apart."""
 _EDGE = 0.08
 """The best samples press against a bound when their median lies in this outermost part of the range."""
@@ -43,7 +44,7 @@ def separations(trials: Sequence[Trial], space: Space) -> tuple[Separation, ...]
     """At most three, the clearest first. None where few samples failed or all got equally far."""
     found = []
     for distance, name, sampler, best in _separating(trials, space):
-        low, high = (_value(sampler, q) for q in np.quantile(best, (0.05, 0.95)))
+        low, high = (value_at(sampler, q) for q in np.quantile(best, (0.05, 0.95)))
         found.append((-distance, Separation(parameter=name, low=low, high=high)))
     return tuple(separation for _, separation in sorted(found, key=lambda item: item[0])[:_MOST])
 
@@ -54,9 +55,9 @@ def bound_hits(trials: Sequence[Trial], space: Space) -> tuple[BoundHit, ...]:
     for _, name, sampler, best in _separating(trials, space):
         middle = float(np.median(best))
         if middle < _EDGE:
-            hits.append(BoundHit(parameter=name, bound=_value(sampler, 0.0), side="lower"))
+            hits.append(BoundHit(parameter=name, bound=value_at(sampler, 0.0), side="lower"))
         elif middle > 1 - _EDGE:
-            hits.append(BoundHit(parameter=name, bound=_value(sampler, 1.0), side="upper"))
+            hits.append(BoundHit(parameter=name, bound=value_at(sampler, 1.0), side="upper"))
     return tuple(hits)
 
 
@@ -68,17 +69,17 @@ def _separating(
     if len(scored) < _FEWEST_SAMPLES or len(set(scored)) == 1:
         return
     order = sorted(range(len(scored)), key=lambda i: scored[i], reverse=True)
-    best_count = max(_FEWEST_BEST, int(_BEST_SHARE * len(order)))
+    best_count = max(FEWEST_BEST, int(_BEST_SHARE * len(order)))
     u = np.array([t.u for t in trials if t.violations])[order]
     at = 0
     for name, sampler in space.samplers.items():
         best, rest = u[:best_count, at], u[best_count:, at]
         at += sampler.dim
-        if isinstance(sampler, ContinuousSampler) and (distance := _distance(best, rest)) > _DISTANCE:
-            yield distance, name, sampler, best
+        if isinstance(sampler, ContinuousSampler) and (apart := distance(best, rest)) > DISTANCE:
+            yield apart, name, sampler, best
 
 
-def _distance(a: FloatArray, b: FloatArray) -> float:
+def distance(a: FloatArray, b: FloatArray) -> float:
     """Kolmogorov-Smirnov distance of two samples."""
     grid = np.concatenate([a, b])
     below_a = np.searchsorted(np.sort(a), grid, side="right") / len(a)
@@ -86,6 +87,6 @@ def _distance(a: FloatArray, b: FloatArray) -> float:
     return float(np.max(np.abs(below_a - below_b)))
 
 
-def _value(sampler: ContinuousSampler, u: float) -> float:
+def value_at(sampler: ContinuousSampler, u: float) -> float:
     """The parameter's value, to three digits: enough to act on, and stable."""
     return float(f"{sampler.decode(np.array([[u]]))[0, 0]:.3g}")

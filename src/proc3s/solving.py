@@ -7,10 +7,10 @@ from typing import Protocol
 import numpy as np
 
 from proc3s.errors import Interrupted, Proc3sError, blame
-from proc3s.evaluation import Evaluator
+from proc3s.evaluation import ALIKE, Evaluator
 from proc3s.problem import Trial
 from proc3s.samplers import Space
-from proc3s.sketch.errors import SketchError
+from proc3s.sketch.errors import SketchError, SketchRuntimeError
 from proc3s.state import FloatArray
 
 
@@ -29,7 +29,8 @@ class Solver(Protocol):
 class Search:
     """One program's search, which can be continued: every trial in order, and what stopped it.
 
-    `halted` is the program's own fault, `broken_off` is not. `report` sees the trials batch by batch.
+    `halted` is the program's own fault, `broken_off` is not; `alike` says that its first samples all raised
+    the same exception at the same line, so that no more are drawn. `report` sees the trials batch by batch.
     `check` is called between trials and may raise what breaks the search off.
     """
 
@@ -48,6 +49,7 @@ class Search:
         self._check = check
         self._exhausted = False
         self.trials: list[Trial] = []
+        self.alike = False
         self.halted: SketchError | None = None
         self.broken_off: Proc3sError | None = None
 
@@ -59,7 +61,7 @@ class Search:
     @property
     def over(self) -> bool:
         """Whether going on is of no use: solved, stopped, or nothing left to ask."""
-        return bool(self._exhausted or self.solution or self.halted or self.broken_off)
+        return bool(self._exhausted or self.solution or self.halted or self.broken_off or self.alike)
 
     @property
     def progress(self) -> float:
@@ -101,7 +103,8 @@ class Search:
         try:
             for trial in self._evaluator.stream(u):
                 self.trials.append(trial)
-                if trial.accepted:
+                self.alike = len(self.trials) == ALIKE and _all_alike(self.trials)
+                if trial.accepted or self.alike:
                     break
                 self._check()
         except SketchError as error:
@@ -110,6 +113,17 @@ class Search:
             self.broken_off = error
         except KeyboardInterrupt:
             self.broken_off = Interrupted("interrupted")
+
+
+def _all_alike(trials: Sequence[Trial]) -> bool:
+    """Whether all raised the same type of exception at the same line."""
+    raised = {
+        (trial.error.message.partition(":")[0], trial.error.line)
+        if isinstance(trial.error, SketchRuntimeError)
+        else None
+        for trial in trials
+    }
+    return len(raised) == 1 and None not in raised
 
 
 def race(searches: Sequence[Search], budget: int) -> None:

@@ -175,4 +175,5 @@ def _program_error(failure: Failure) -> dict[str, Any]:
         "line": failure.line,
         "source": failure.source,
         "share": failure.share,
+        "parameters": failure.parameters,
     }

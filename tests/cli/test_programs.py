@@ -124,7 +124,7 @@ def test_errors_of_samples_stand_in_the_summary(cli, stub):
         "--json",
     )
     (error,) = result.json["program_errors"]
-    assert set(error) == {"kind", "message", "line", "source", "share"}
+    assert set(error) == {"kind", "message", "line", "source", "share", "parameters"}
     assert (error["kind"], error["line"], error["share"]) == ("SketchRuntimeError", 3, 30)
     assert "print(1 / 0)" in error["source"]
     (violation,) = result.json["violations"]

@@ -49,7 +49,7 @@ def test_only_the_first_violation_of_a_sample_counts():
 
 @pytest.mark.parametrize(
     ("part", "whole", "share"),
-    [(731, 1000, 75), (732, 1000, 75), (1, 1000, 5), (1, 3, 35), (2, 3, 65), (7, 7, 100)],
+    [(731, 1000, 75), (732, 1000, 75), (1, 1000, 0), (1, 3, 35), (2, 3, 65), (999, 1000, 99), (7, 7, 100)],
 )
 def test_shares_are_rounded_to_five_percent(part, whole, share):
     trials = [failed(0, "often")] * part + [failed(1, f"rare {i}") for i in range(whole - part)]

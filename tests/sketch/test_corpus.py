@@ -85,9 +85,10 @@ def test_hostile(case, friendly, workers, usual, monkeypatch):
     check(case, result, friendly)
     assert after == before
     assert "hunter2" not in str(result)
-    assert len(workers) == 1
-    assert workers[0].returncode is not None
-    assert session_of(workers[0].pid) == []
+    assert 1 <= len(workers) <= 4  # another where a sample hung or killed the last
+    for worker in workers:
+        assert worker.returncode is not None
+        assert session_of(worker.pid) == []
     with BoxedSketch(program(LINE)) as sketch:
         assert np.array_equal(sketch.plans(cube(5, 2)).values, usual)
 

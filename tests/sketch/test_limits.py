@@ -9,7 +9,7 @@ from proc3s.sketch import Limits, SketchCrash, SketchMemoryError, SketchTimeout
 
 from .conftest import cube
 
-SHORT = Limits(call=0.4, load=1.0)
+SHORT = Limits(call=0.4, load=1.0, restarts=0)
 
 
 def after(number, what):
@@ -75,7 +75,7 @@ def test_cpu_time_has_a_limit(box):
 )
 def test_memory(box, what):
     with pytest.raises(SketchMemoryError, match="MemoryError") as caught:
-        box(after(700, what), limits=Limits(memory=64 << 20)).plans(COUNTING)
+        box(after(700, what), limits=Limits(memory=64 << 20, restarts=0)).plans(COUNTING)
     assert len(caught.value.done) == 700
 
 
@@ -88,7 +88,7 @@ def test_memory_while_loading(box):
 
 def test_a_crash_inside_c_code(box):
     crash = "np.lib.stride_tricks.as_strided(np.zeros(1), (10**6,), (4096,)).sum()"
-    sketch = box(after(700, crash))
+    sketch = box(after(700, crash), limits=Limits(restarts=0))
     with pytest.raises(SketchCrash, match=r"process died \(SIGSEGV\)") as caught:
         sketch.plans(COUNTING)
     assert len(caught.value.done) == 700
@@ -99,7 +99,7 @@ def test_what_a_program_said_before_it_died_is_read_though_it_takes_no_more_samp
     crash = "np.lib.stride_tricks.as_strided(np.zeros(1), (10**6,), (4096,)).sum()"
     long = after(570, crash).replace("2, 3, 4])]", "2, 3, 4])] * 30")
     with pytest.raises(SketchCrash) as caught:
-        box(long).plans(COUNTING)
+        box(long, limits=Limits(restarts=0)).plans(COUNTING)
     assert len(caught.value.done) == 570
 
 

@@ -145,7 +145,7 @@ def test_forged_replies_end_the_batch(box, reply):
 def test_half_a_reply_is_waited_for_only_so_long(box):
     source = forging(b"\2").replace("    return", "    while calls == 3: pass\n    return")
     with pytest.raises(SketchTimeout) as caught:
-        box(source, "program", limits=Limits(call=0.3)).plans(np.empty((9, 0)))
+        box(source, "program", limits=Limits(call=0.3, restarts=0)).plans(np.empty((9, 0)))
     assert len(caught.value.done) == 2
 
 
@@ -155,7 +155,7 @@ def test_dripping_bytes_gain_no_time(box):
     drip += "        for byte in body:\n            os['write'](4, bytes([byte])); sum(range(200_000))\n"
     drip += "    return [Action('repeat', [1])]"
     with pytest.raises(SketchTimeout):
-        box(drip, "program", limits=Limits(call=0.4)).plans(np.empty((1, 0)))
+        box(drip, "program", limits=Limits(call=0.4, restarts=0)).plans(np.empty((1, 0)))
 
 
 def test_what_is_forged_while_loading_is_noticed(box):

@@ -24,6 +24,7 @@ from proc3s.events import (
 from proc3s.feedback import Diagnosis, Failure
 from proc3s.llms import Completion
 from proc3s.options import RunOptions
+from proc3s.shares import portion
 from proc3s.summary import Summary
 
 _ORIGIN = {
@@ -141,8 +142,10 @@ class Console:
     def _diagnosis(self, round_: int, diagnosis: Diagnosis) -> None:
         self._progress.update(self._task, visible=False)
         self.say(f"round {round_}: no plan was accepted ({diagnosis.samples} samples)")
+        if diagnosis.alike:
+            self.say(f"  no more were drawn: all of the first {diagnosis.samples} raised the same exception")
         for failure in (*diagnosis.program_errors, *diagnosis.failures)[:3]:
-            self.say(f"  {failure.share:3d} %  {describe(failure)}")
+            self.say(f"  {portion(failure.share):>5}  {describe(failure)}")
 
     def result(self, summary: Summary) -> None:
         """The outcome in a few lines on stdout."""
@@ -219,4 +222,5 @@ def describe(failure: Failure) -> str:
     if failure.step is not None:
         return f"step {failure.step} ({failure.skill}): {failure.text}"
     line = f" (line {failure.line}: {(failure.source or '').strip()})" if failure.line else ""
-    return f"{failure.kind}: {failure.text}{line}"
+    parameters = f", {failure.parameters}" if failure.parameters else ""
+    return f"{failure.kind}: {failure.text}{line}{parameters}"

@@ -11,6 +11,7 @@ from markupsafe import Markup, escape
 
 from proc3s.errors import Issue, SpecError, UsageError
 from proc3s.registry import Registry
+from proc3s.shares import portion
 from proc3s.specs import TemplatesSpec
 
 
@@ -33,7 +34,12 @@ class Words:
             lstrip_blocks=True,
             autoescape=html,
         )
-        self._environment.filters |= {"number": number, "sampler": sampler, "ticks": ticks}
+        self._environment.filters |= {
+            "number": number,
+            "portion": portion,
+            "sampler": sampler,
+            "ticks": ticks,
+        }
 
     def render(self, name: str, /, **variables: Any) -> str:
         """The text of a template."""

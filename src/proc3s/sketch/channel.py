@@ -8,7 +8,6 @@ import select
 import signal
 import subprocess
 import time
-from typing import NoReturn
 
 import numpy as np
 
@@ -84,23 +83,26 @@ class Channel:
             self._send(operation, body, deadline)
             return self._frame((expected, ERROR), deadline)
         except _Late:
-            self._timeout(f"{what} took longer than {seconds:g} s")
+            raise self._timeout(f"{what} took longer than {seconds:g} s") from None
         except _Ended:
-            self._crash()
+            raise self._crash() from None
         except Malformed as error:
             raise lie(error) from error
 
     def run(self, rows: FloatArray, replies: Replies) -> None:
-        """Send all rows, feed all replies. Raises SketchError; `replies` keeps what came before."""
+        """Send the rows that have no reply yet, feed all replies. Raises SketchError; `replies` keeps what
+        came before."""
+        begun = replies.done
+        rows = rows[begun:]
         per_chunk = max(1, min(_MOST_ROWS, _CHUNK // (8 * rows.shape[1])))
         chunks = [rows[at : at + per_chunk] for at in range(0, len(rows), per_chunk)]
         batch_end = time.monotonic() + self._limits.batch
         call_end = time.monotonic() + self._limits.call
         sent = 0
         try:
-            while replies.done < len(rows):
-                while sent < len(chunks) and sent - replies.done // per_chunk < 2:
-                    first = FIRST_SAMPLE.pack(replies.first + sent * per_chunk)
+            while replies.done < replies.count:
+                while sent < len(chunks) and sent - (replies.done - begun) // per_chunk < 2:
+                    first = FIRST_SAMPLE.pack(replies.first + begun + sent * per_chunk)
                     try:
                         self._send(RUN, first + chunks[sent].tobytes(), min(call_end, batch_end))
                     except _Ended:
@@ -112,15 +114,19 @@ class Channel:
                 now = time.monotonic()
                 # a deadline for each call, not for each read: a reply may drip in byte by byte
                 call_end = now + self._limits.call if replies.done > done else call_end
-                if now > min(call_end, batch_end) and replies.done < len(rows):
+                if now > min(call_end, batch_end) and replies.done < replies.count:
                     raise _Late
-                _nap(len(rows) - replies.done)
+                _nap(replies.count - replies.done)
         except _Late:
             late = time.monotonic() > batch_end
             limit = f"the batch took longer than {self._limits.batch:g} s"
-            self._timeout(limit if late else f"one call of gen_plan took longer than {self._limits.call:g} s")
+            error = self._timeout(
+                limit if late else f"one call of gen_plan took longer than {self._limits.call:g} s"
+            )
+            error.alone = not late
+            raise error from None
         except _Ended:
-            self._crash()
+            raise self._crash() from None
         except Malformed as error:
             raise lie(error) from error
 
@@ -160,19 +166,23 @@ class Channel:
                 raise _Late
         return frame
 
-    def _timeout(self, limit: str) -> NoReturn:
+    def _timeout(self, limit: str) -> SketchTimeout:
         self._worker.send_signal(signal.SIGUSR1)
-        raise SketchTimeout(limit, *self._running_line(0.3))
+        error = SketchTimeout(limit, *self._running_line(0.3))
+        error.alone = True
+        return error
 
-    def _crash(self) -> NoReturn:
+    def _crash(self) -> SketchError:
         try:
             code = self._worker.wait(0.5)
         except subprocess.TimeoutExpired:
             code = 0
         line, text = self._running_line(0.1)
         if code == -signal.SIGXCPU:
-            raise SketchTimeout(f"the program used more than {self._limits.cpu} s of CPU time", line, text)
-        raise SketchCrash(f"the program's process died ({_exit(code)})", line, text)
+            return SketchTimeout(f"the program used more than {self._limits.cpu} s of CPU time", line, text)
+        error = SketchCrash(f"the program's process died ({_exit(code)})", line, text)
+        error.alone = True
+        return error
 
     def _running_line(self, wait: float) -> tuple[int | None, str | None]:
         """The innermost line of the program in the worker's trace, of which only numbers are believed."""

@@ -24,13 +24,14 @@ class OpenParameter:
     sampler: Sampler | None
     choices: tuple[Scalar, ...] = ()
 
-    @property
-    def centre(self) -> list[float | None]:
-        """The value in the middle of the cube, as it crosses."""
+    def drawn(self, rng: np.random.Generator | None = None) -> list[float | None]:
+        """A value at random, else that in the middle of the cube, as it crosses."""
         if self.sampler is None:
             return [None]
-        centre: list[float | None] = decoded(self.sampler, np.full((1, self.sampler.dim), 0.5))[0].tolist()
-        return centre
+        shape = (1, self.sampler.dim)
+        u = np.full(shape, 0.5) if rng is None else rng.random(shape)
+        value: list[float | None] = decoded(self.sampler, u)[0].tolist()
+        return value
 
     def value(self, columns: list[float]) -> Scalar | tuple[float, ...]:
         """What gen_plan gets for the numbers that cross; several as they are."""

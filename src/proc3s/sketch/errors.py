@@ -24,8 +24,11 @@ class SketchError(Exception):
     """A program, or one sample of it, failed.
 
     `line` and `source` point into the program where that is known. `done` holds the finished samples
-    when a batch was cut short. `issues` lists every breach of the contract.
+    when a batch was cut short. `issues` lists every breach of the contract. `alone` says that only the
+    sample at hand failed, though it took its process with it: others may do in a fresh one.
     """
+
+    alone = False
 
     def __init__(
         self,

@@ -19,6 +19,8 @@ class Limits:
     replies: int = 32 << 20
     """All replies of one batch."""
     actions: int = 500
+    restarts: int = 25
+    """Samples that may hang or kill their process before the program is given up."""
     source: int = 64 << 10
     printed: int = 4 << 10
     """Characters kept of what one call, or loading, prints."""

@@ -172,9 +172,15 @@ class Replies:
             raise Malformed("an error is of an unknown kind")
         error = error_of(fault, self.source)
         if isinstance(error, SketchMemoryError):
+            error.alone = True
             raise error
+        self.fail(error)
+
+    def fail(self, error: SketchError) -> None:
+        """The next sample failed; what came of its reply is dropped."""
         self.errors[self.done] = error
         self.sizes.append((0, 0))
+        self._rest = b""
 
 
 def frame_of(buffer: bytes, kinds: tuple[int, ...], limits: Limits) -> tuple[int, bytes] | None:

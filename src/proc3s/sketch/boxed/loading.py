@@ -69,14 +69,14 @@ class Program:
         plan = self._call(row)
         return plan if type(plan) is list else as_list(plan, self.encoder.longest)
 
-    def probe(self, row: list[float | None]) -> list[Problem]:
+    def probe(self, sample: int, row: list[float | None]) -> list[Problem]:
         """What one call shows to be wrong with the actions; None in the row stands for a missing sampler."""
         if self._call is None:
             return []
         stand_in = [STAND_IN if value is None else value for value in row]
         try:
             with noting_lines(self._action, FILENAME, spread=False) as made:
-                plan = self.plan(0, stand_in)
+                plan = self.plan(sample, stand_in)
             found = list(islice(self.encoder.problems(plan), MOST_PROBLEMS))
         except BaseException:  # the samples will tell; it is no breach of the contract
             return []

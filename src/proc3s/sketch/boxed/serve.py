@@ -85,7 +85,7 @@ class Server:
             if operation == LOAD:
                 _write(self.load(json.loads(body)))
             elif operation == PROBE:
-                _write(_frame(0, PROBED, self.program.probe(json.loads(body))))
+                _write(_frame(0, PROBED, self.program.probe(*json.loads(body))))
                 self.output.take()
             else:
                 self.answer(body)
