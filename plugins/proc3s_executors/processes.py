@@ -6,6 +6,7 @@ import multiprocessing
 import os
 import pickle
 import signal
+import tempfile
 import threading
 import time
 from collections import deque
@@ -15,7 +16,17 @@ from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
 from pathlib import Path
 
-from proc3s import Plan, Problem, Rollouts, Trial, UsageError, Violation, loose_files, without_secrets
+from proc3s import (
+    OutOfTime,
+    Plan,
+    Problem,
+    Rollouts,
+    Trial,
+    UsageError,
+    Violation,
+    loose_files,
+    without_secrets,
+)
 
 _CHUNK_SECONDS = 0.02
 """Work that goes to a worker at once: long against sending it, short to wait for when nobody needs it."""
@@ -47,6 +58,7 @@ class Processes:
     def __init__(self, jobs: int = 2) -> None:
         self._jobs = jobs
         self._pool: ProcessPoolExecutor | None = None
+        self._told: tempfile.TemporaryDirectory[str] | None = None
         self._restarts = 0
         self._plans_per_chunk = 1
 
@@ -117,17 +129,28 @@ class Processes:
     def _workers(self) -> ProcessPoolExecutor:
         if self._pool is None:
             context = multiprocessing.get_context("spawn")
-            files = loose_files()
-            self._pool = ProcessPoolExecutor(self._jobs, context, initializer=_begin, initargs=(files,))
+            self._told = self._told or tempfile.TemporaryDirectory(prefix="proc3s-")
+            given = (loose_files(), Path(self._told.name))
+            self._pool = ProcessPoolExecutor(self._jobs, context, initializer=_begin, initargs=given)
         return self._pool
 
     def _restart(self) -> None:
+        if (late := self._last_words()) is not None:
+            self._kill()
+            self.close()
+            raise OutOfTime(late)
         self._restarts += 1
         if self._restarts > _MOST_RESTARTS:
             jobs = f"--jobs {self._jobs}"
             raise UsageError(f"{self._restarts} worker processes died; is there memory enough for {jobs}?")
         self._kill()
         self.close()
+
+    def _last_words(self) -> str | None:
+        """Of a worker that was ended because it took too long; that is no verdict on a plan."""
+        found = Path(self._told.name).iterdir() if self._told else iter(())
+        path = next(found, None)
+        return path.read_text(encoding="utf-8") if path else None
 
     def _kill(self) -> None:
         """End the workers at once.
@@ -144,6 +167,9 @@ class Processes:
         if self._pool is not None:
             self._pool.shutdown(cancel_futures=True)
             self._pool = None
+        if self._told is not None:
+            self._told.cleanup()
+            self._told = None
 
 
 @contextlib.contextmanager
@@ -161,9 +187,15 @@ def _for_children() -> Iterator[None]:
                 os.environ[_SAFE_PATH] = before
 
 
-def _begin(files: tuple[Path, ...]) -> None:
-    """A worker leaves Ctrl-C to the parent, ends with it, and has its loose plugin files."""
+def _begin(files: tuple[Path, ...], told: Path) -> None:
+    """A worker leaves Ctrl-C to the parent, ends with it, and has its loose plugin files.
+
+    If it takes too long, `told` gets its last words.
+    """
     from proc3s import import_loose_file
+    from proc3s.watch import watch
+
+    watch().told = told
 
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_end_with_parent, daemon=True).start()

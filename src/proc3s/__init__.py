@@ -9,6 +9,7 @@ if TYPE_CHECKING:
     from proc3s.constraints import sentence as sentence
     from proc3s.domain import Domain as Domain
     from proc3s.errors import LLMError as LLMError
+    from proc3s.errors import OutOfTime as OutOfTime
     from proc3s.errors import Pending as Pending
     from proc3s.errors import SpecError as SpecError
     from proc3s.errors import UsageError as UsageError
@@ -64,7 +65,7 @@ if TYPE_CHECKING:
 _WHERE = {
     "constraints": ("Margin", "Violation", "sentence"),
     "domain": ("Domain",),
-    "errors": ("LLMError", "Pending", "SpecError", "UsageError"),
+    "errors": ("LLMError", "OutOfTime", "Pending", "SpecError", "UsageError"),
     "executors": ("Executor",),
     "findings": ("Finding",),
     "hookspecs": ("hookimpl",),

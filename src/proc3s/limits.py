@@ -10,6 +10,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from proc3s.errors import UsageError, did_you_mean
 from proc3s.sketch.limits import Limits
+from proc3s.watch import SECONDS
 
 Part = TypeVar("Part", Limits, "ClockLimits")
 
@@ -20,6 +21,8 @@ class ClockLimits:
 
     round: float | None = None
     """From the answers of a round to the end of its search."""
+    step: float = SECONDS
+    """One step of a plan in a world, its reset, or a judge."""
 
 
 def make_limits(given: Mapping[str, str]) -> tuple[Limits, ClockLimits]:

@@ -1,5 +1,6 @@
 """Options of a run as plain data, and the wiring of the chosen plugins into a `Setup`."""
 
+import dataclasses
 import json
 from collections.abc import Mapping
 from pathlib import Path
@@ -137,8 +138,6 @@ def make_setup(registry: Registry, options: RunOptions, problem: Problem) -> Set
         executor: Executor = make_executor(jobs=options.jobs)
     problem.domain.require(problem.task)
     limits, clock_limits = make_limits(options.limits)
-    if flaws := problem.domain.flaws(problem.initial):
-        raise UsageError(f"the scene of {problem.name}, seed {problem.seed}: {'; '.join(flaws)}")
     if problem.robust and problem.domain.spec.world.load().disturb is World.disturb:
         raise UsageError(f"--robust: nothing disturbs the world of {problem.domain.spec.name}")
 
@@ -148,7 +147,7 @@ def make_setup(registry: Registry, options: RunOptions, problem: Problem) -> Set
         return made
 
     return Setup(
-        problem=problem,
+        problem=dataclasses.replace(problem, step_limit=clock_limits.step),
         method=method,
         preset=preset,
         solver=name,

@@ -16,6 +16,7 @@ from proc3s.domain import Domain
 from proc3s.errors import blame, not_wanted
 from proc3s.specs import ScreenSpec, Target, TaskSpec
 from proc3s.state import Action, Plan, State
+from proc3s.watch import SECONDS, watch
 from proc3s.world import Score, World
 
 
@@ -25,7 +26,7 @@ class Problem:
 
     It hashes, pickles and replays; `scene` is the initial state as JSON. With `check_goal` a plan must
     also satisfy the judges of the task; with `robust` it must pass as many rehearsals. `screens` and
-    `prefixes` switch off what only saves time.
+    `prefixes` switch off what only saves time. `step_limit` (wall-clock s) aborts, and decides nothing.
     """
 
     domain: Domain
@@ -39,6 +40,7 @@ class Problem:
     robust: int = 0
     screens: Literal["all", "exact", "none"] = "all"
     prefixes: bool = True
+    step_limit: float = SECONDS
 
     @cached_property
     def initial(self) -> State:
@@ -183,10 +185,11 @@ def carry_out(
     world: World[Any], problem: Problem, plan: Plan, stop: bool = True, prefixes: Prefixes | None = None
 ) -> tuple[Trial, State]:
     """The trial of a plan, and the state in which it ended; without `stop` it goes on after violations."""
-    prefixes = prefixes or Prefixes(0)
+    prefixes, within = prefixes or Prefixes(0), watch().within
     known = prefixes.longest(plan)
     if known is None:
-        world.reset(problem.initial)
+        with within(problem.step_limit, "the reset of the world"):
+            world.reset(problem.initial)
         state, margins = problem.initial, []
     else:
         world.resume(known.snapshot)
@@ -196,7 +199,8 @@ def carry_out(
     violations: list[Violation] = []
     reached = len(plan)
     for step in range(len(margins), len(plan)):
-        transition = world.step(plan[step])
+        with within(problem.step_limit, f"skill {plan[step].skill} (step {step})"):
+            transition = world.step(plan[step])
         state = transition.after
         step_margins, found = check(problem.domain, transition, step)
         margins.append(step_margins)
@@ -228,7 +232,7 @@ def judge(problem: Problem, final: State, plan: Plan) -> tuple[Score | None, str
 def _score(problem: Problem, target: Target, final: State, plan: Plan) -> Score:
     """What one judge says. Raises SpecError if that is no score."""
     part = f"judge {target.target} of {problem.name}"
-    with blame(part):
+    with blame(part), watch().within(problem.step_limit, part):
         score = target.load()(final, plan, **target.args)
     if (
         isinstance(score, Score)

@@ -1,16 +1,19 @@
 """What is certain before anybody is asked: that the parts of a run can be imported and made."""
 
-from proc3s.errors import blame
+from contextlib import closing
+
+from proc3s.errors import UsageError, blame
 from proc3s.problem import Problem
 from proc3s.rollouts import Rollouts
 from proc3s.specs import Target
+from proc3s.watch import watch
 
 
 def check_parts(problem: Problem) -> None:
     """Import every target of a task, make its screens, and put the scene into its worlds.
 
-    An answer costs money, and a simulator that is missing is missed at the first plan otherwise. Raises
-    SpecError or UsageError.
+    An answer costs money, and what is wrong with a simulator or a scene shows at the first plan otherwise.
+    Raises SpecError or UsageError.
     """
     domain = problem.domain
     domain.require(problem.task)
@@ -23,9 +26,8 @@ def check_parts(problem: Problem) -> None:
 
 
 def _set_up(problem: Problem, what: str, target: Target) -> None:
-    with blame(what):
-        world = problem.domain.make_world(target)
-        try:
+    with blame(what), closing(problem.domain.make_world(target)) as world:
+        if flaws := world.flaws(problem.initial):
+            raise UsageError(f"the scene of {problem.name}, seed {problem.seed}: {'; '.join(flaws)}")
+        with watch().within(problem.step_limit, f"the reset of the {what}"):
             world.reset(problem.initial)
-        finally:
-            world.close()

@@ -11,6 +11,7 @@ from proc3s.constraints import Violation
 from proc3s.errors import blame, not_wanted
 from proc3s.problem import Prefixes, Problem, Trial, rollout
 from proc3s.state import Plan
+from proc3s.watch import watch
 
 REHEARSAL = "rehearsal"
 """Stands for the constraint of a violation that only a disturbed world finds."""
@@ -38,7 +39,7 @@ class Rollouts:
     def __call__(self, plan: Plan) -> Trial:
         """The verdict of the first screen that rejects the plan, else of the world."""
         for name, screen in self._screens:
-            with blame(f"screen {name}"):
+            with blame(f"screen {name}"), watch().within(self._problem.step_limit, f"screen {name}"):
                 violation = screen.check(self._problem.initial, plan)
             if not isinstance(violation, Violation | None):
                 raise not_wanted(f"screen {name}", violation, "a Violation or None")

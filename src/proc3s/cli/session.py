@@ -201,7 +201,7 @@ class Session:
         self._registry = open_registry(self._options.plugins)
         self._problem = make_problem(self._registry, self._options, goal_needed=job.given is None)
         self._setup = make_setup(self._registry, self._options, self._problem)
-        check_parts(self._problem)
+        check_parts(self._setup.problem)
         self._past = job.past or Past()
         self._ledger = self._past.ledger
         self._recorded = {(a.round, a.candidate): a.completion for a in self._past.answers}
