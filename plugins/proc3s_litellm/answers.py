@@ -8,6 +8,8 @@ from proc3s import Candidate, Usage
 
 _TEXTS = (None, "text", "output_text")
 """Types of the parts that are the answer; all others are reasoning, pictures, calls."""
+_BROKEN_OFF = {"length": "length", "max_tokens": "length", "max_output_tokens": "length", "error": "error"}
+"""Ends in the middle, which litellm may not know in this spelling, and then takes for a whole answer."""
 _TOKENS = (("prompt_tokens", "completion_tokens"), ("input_tokens", "output_tokens"))
 
 
@@ -44,8 +46,8 @@ def readable(body: str | None) -> tuple[Candidate, ...]:
     if error_in(body) or not isinstance(choices, list):
         return ()
     found = [
-        candidate(choice["message"], choice.get("finish_reason"))
-        for choice in choices
+        candidate(choice["message"], end)
+        for choice, end in zip(choices, finishes(body), strict=True)
         if isinstance(choice, Mapping) and isinstance(choice.get("message"), Mapping)
     ]
     return tuple(found) if any(_says_something(c) for c in found) else ()
@@ -58,11 +60,30 @@ def _says_something(found: Candidate) -> bool:
 def counted(body: str | None) -> Usage | None:
     """The tokens that an answer speaks of, whatever else is wrong with it; None if it speaks of none."""
     usage = _object(body).get("usage")
-    for prompt, completion in _TOKENS:
-        tokens = [usage.get(prompt), usage.get(completion)] if isinstance(usage, Mapping) else []
-        if tokens and all(isinstance(t, int) and t >= 0 for t in tokens):
-            return Usage(prompt_tokens=tokens[0], completion_tokens=tokens[1])
+    for prompt, completion in _TOKENS if isinstance(usage, Mapping) else ():
+        asked, answered = tokens(usage.get(prompt)), tokens(usage.get(completion))
+        if asked and answered is not None:
+            return Usage(prompt_tokens=asked, completion_tokens=answered)
     return None
+
+
+def tokens(number: Any) -> int | None:
+    """A number of tokens, or None for what cannot be one."""
+    return number if isinstance(number, int) and not isinstance(number, bool) and number >= 0 else None
+
+
+def finishes(body: str | None, known: Sequence[Any] | None = None) -> list[str]:
+    """Why each candidate ended: as litellm knows, unless that makes a whole answer of a broken one."""
+    choices = _object(body).get("choices")
+    listed = choices if isinstance(choices, list) else []
+    sent = [c.get("finish_reason") if isinstance(c, Mapping) else None for c in listed]
+    known = sent if known is None else known
+    if len(sent) != len(known):
+        sent = list(known)
+    return [
+        _BROKEN_OFF.get(str(s).lower()) or (k if isinstance(k, str) else "stop")
+        for s, k in zip(sent, known, strict=True)
+    ]
 
 
 def model_in(body: str | None) -> str | None:

@@ -9,7 +9,7 @@ from pydantic import BaseModel, ConfigDict, Field, SecretStr, model_validator
 from proc3s import LLM, Candidate, Completion, LLMError, Price, Request, Usage
 from proc3s_litellm import prices
 from proc3s_litellm.addresses import fault_of
-from proc3s_litellm.answers import candidate, counted, error_in, model_in, readable
+from proc3s_litellm.answers import candidate, counted, error_in, finishes, model_in, readable, tokens
 from proc3s_litellm.exchange import Exchange
 from proc3s_litellm.faults import diagnose, sent_as_success
 from proc3s_litellm.keys import find_key, hide_key
@@ -30,7 +30,10 @@ class Options(BaseModel):
 
     api_base: str | None = Field(None, description="address of a server that speaks the provider's protocol")
     timeout: float = Field(
-        120.0, gt=0, description="seconds that a call may take, from request to the end of its answer"
+        120.0,
+        gt=0,
+        le=86_400,
+        description="seconds that a call may take, to the end of its answer",
     )
 
     @model_validator(mode="before")
@@ -73,9 +76,12 @@ class LiteLLM(LLM):
             raise explain(diagnose(error), self._call) from None
 
     def prepare(self) -> None:
-        """Import litellm, which takes seconds."""
+        """Import litellm, which takes seconds, and see whether it knows the provider and has a key for it."""
         try:
-            load_litellm()
+            key_for_call(litellm := load_litellm(), self._call)
+            litellm.get_llm_provider(self._call.model)
+        except LLMError:
+            raise
         except Exception as error:  # an installation that is broken, in whichever way
             raise explain(diagnose(error), self._call) from None
 
@@ -104,11 +110,12 @@ class LiteLLM(LLM):
                 return self._completion(candidates, exchange, dropped)
             raise self._explained(error, exchange, arguments) from None
         choices = getattr(response, "choices", None) or ()
-        candidates = tuple(candidate(_fields(c.message), c.finish_reason) for c in choices)
+        ends = finishes(exchange.body, [choice.finish_reason for choice in choices])
+        candidates = tuple(candidate(_fields(c.message), end) for c, end in zip(choices, ends, strict=True))
         cost = self._cost(litellm, response)
         answer = self._completion(candidates, exchange, dropped)
-        changes = {"model": self._named(response.model), "usage": _usage(response), "cost": cost}
-        return answer.model_copy(update=changes)
+        usage = _usage(response, silent=not any(c.text for c in candidates))
+        return answer.model_copy(update={"model": self._named(response.model), "usage": usage, "cost": cost})
 
     def _explained(self, error: Exception, exchange: Exchange, arguments: Mapping[str, Any]) -> LLMError:
         failure = diagnose(error)
@@ -148,9 +155,10 @@ class LiteLLM(LLM):
             dropped=dropped,
         )
 
-    def _named(self, model: str | None) -> str:
+    def _named(self, model: Any) -> str:
         """A model as it calls itself, else as it was asked for."""
-        return self._hidden(model or self._call.model).removeprefix(f"{self._call.provider}/")
+        name = model if isinstance(model, str) and model else self._call.model
+        return self._hidden(name).removeprefix(f"{self._call.provider}/")
 
     def _hidden(self, text: str) -> str:
         """A server that echoes the key in its answer does not get it into any log."""
@@ -172,15 +180,19 @@ def _fields(message: Any) -> dict[str, Any]:
     return {name: getattr(message, name, None) or apart.get(name) for name in names}
 
 
-def _usage(response: Any) -> Usage:
-    """Tokens as the provider counted them; where it says nothing litellm puts zeros."""
+def _usage(response: Any, silent: bool = True) -> Usage:
+    """Tokens as the provider counted them; where it says nothing litellm puts zeros.
+
+    Only a `silent` answer may have none.
+    """
     counted = getattr(response, "usage", None)
-    prompt = getattr(counted, "prompt_tokens", None) or None
+    prompt = tokens(getattr(counted, "prompt_tokens", None)) or None
     if prompt is None:
         return Usage()
+    completion = tokens(getattr(counted, "completion_tokens", None))
     details = getattr(counted, "prompt_tokens_details", None)
     return Usage(
         prompt_tokens=prompt,
-        completion_tokens=getattr(counted, "completion_tokens", None),
-        cached_tokens=getattr(details, "cached_tokens", None),
+        completion_tokens=completion if completion or silent else None,
+        cached_tokens=tokens(getattr(details, "cached_tokens", None)),
     )

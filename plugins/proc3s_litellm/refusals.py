@@ -142,7 +142,10 @@ def _error(body: str) -> Any:
     except (ValueError, RecursionError):
         return body
     first = data[0] if isinstance(data, list) and data else data
-    return first.get("error", first) if isinstance(first, dict) else first
+    if not isinstance(first, dict):
+        return first
+    several = first.get("errors")
+    return several[0] if isinstance(several, list) and several else first.get("error", first)
 
 
 def _about(body: str) -> str:

@@ -42,9 +42,11 @@ class CallOptions(BaseModel):
     patience: float = Field(
         _PATIENCE, ge=0, le=_PATIENCE, description="seconds in which failed calls are repeated"
     )
-    prompt_price: float | None = Field(None, ge=0, description="US dollars for a million tokens of prompt")
+    prompt_price: float | None = Field(
+        None, ge=0, allow_inf_nan=False, description="US dollars for a million tokens of prompt"
+    )
     completion_price: float | None = Field(
-        None, ge=0, description="US dollars for a million tokens of answer"
+        None, ge=0, allow_inf_nan=False, description="US dollars for a million tokens of answer"
     )
 
     @field_validator("temperature", "seed", "max_tokens", mode="before")

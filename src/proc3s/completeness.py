@@ -3,12 +3,14 @@
 from proc3s.errors import LLMError
 from proc3s.llms import Candidate, Completion, Request, estimate_tokens
 
+_PARTS = frozenset({"length", "content_filter", "error"})
+"""Ends of answers that are not whole."""
 _TOOLS = frozenset({"tool_calls", "function_call"})
 
 
 def whole(completion: Completion) -> Completion | None:
     """The completion with the candidates that have all of their text; None without any."""
-    kept = tuple(c for c in completion.candidates if c.text.strip() and not (_cut(c) or _held_back(c)))
+    kept = tuple(c for c in completion.candidates if c.text.strip() and c.finish_reason not in _PARTS)
     return completion.model_copy(update={"candidates": kept}) if kept else None
 
 
@@ -54,6 +56,8 @@ def refuse_empty(completion: Completion) -> None:
             "instruction, or choose another --llm",
             "filtered",
         )
+    if any(candidate.finish_reason == "error" for candidate in completion.candidates):
+        raise LLMError(f"{_who(completion)}: the answer breaks off with an error of the provider", "broken")
     if any(candidate.finish_reason in _TOOLS for candidate in completion.candidates):
         raise LLMError(
             f"{_who(completion)}: the model called a tool instead of answering, though none was offered; "

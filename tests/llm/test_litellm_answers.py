@@ -153,7 +153,7 @@ def test_a_call_that_was_given_up_keeps_no_process_alive(provider):
     )
     fault, ended = done.stdout.split()
     assert (done.returncode, fault, done.stderr) == (0, "timeout", "")
-    assert time.time() - float(ended) < 3
+    assert time.time() - float(ended) < 20  # the server would go on for 50
 
 
 def test_what_ends_a_thread_reaches_the_caller(llm, monkeypatch):
@@ -270,3 +270,73 @@ def test_the_server_of_the_tests_drips():
         with urllib.request.urlopen(asked, timeout=0.2) as answer:
             answer.read(10)
         assert time.monotonic() - begun > 0.4
+
+
+def whole(**more):
+    choice = {"index": 0, "message": {"content": "def gen_plan"}, "finish_reason": "stop"}
+    return sends({"id": "1", "model": "m", "choices": [choice], "usage": USAGE, **more})
+
+
+@pytest.mark.parametrize(
+    ("usage", "counted"),
+    [
+        ({"prompt_tokens": -1, "completion_tokens": -1}, Usage()),
+        ({"prompt_tokens": "many", "completion_tokens": "few"}, Usage()),
+        ({"prompt_tokens": 11.5, "completion_tokens": 2.5}, Usage()),
+        ({"prompt_tokens": 0, "completion_tokens": 0}, Usage()),
+        ([], Usage()),
+        ("x", Usage()),
+        (None, Usage()),
+        ({"total_tokens": 9}, Usage()),
+        ({"prompt_tokens": 5}, Usage(prompt_tokens=5)),
+        ({"prompt_tokens": 5, "completion_tokens": None}, Usage(prompt_tokens=5)),
+        (
+            {"prompt_tokens": 5, "completion_tokens": 1, "prompt_tokens_details": {"cached_tokens": -3}},
+            Usage(prompt_tokens=5, completion_tokens=1),
+        ),
+    ],
+    ids=str,
+)
+def test_strange_counts_are_unknown_and_do_not_cost_the_answer(llm, provider, usage, counted):
+    provider.script(whole(usage=usage))
+    completion = llm().complete(request())
+    assert (completion.text, completion.usage) == ("def gen_plan", counted)
+
+
+@pytest.mark.parametrize("model", [3, None, [], {"a": 1}, ""], ids=str)
+def test_a_strange_name_does_not_cost_the_answer(llm, provider, model):
+    provider.script(whole(model=model))
+    assert llm().complete(request()).model == "tiny"
+
+
+@pytest.mark.parametrize(
+    ("sent", "finish"),
+    [
+        ("length", "length"),
+        ("LENGTH", "length"),
+        ("max_tokens", "length"),
+        ("MAX_TOKENS", "length"),
+        ("error", "error"),
+        ("STOP", "stop"),
+        ("weird", "stop"),
+        (None, "stop"),
+        (3, "stop"),
+        ([], "stop"),
+    ],
+    ids=str,
+)
+def test_an_answer_that_ends_in_the_middle_is_never_whole(llm, provider, sent, finish):
+    provider.script(whole(choices=[{"index": 0, "message": {"content": "def"}, "finish_reason": sent}]))
+    assert llm().complete(request()).candidates[0].finish_reason == finish
+
+
+def test_errors_in_a_list_are_read(llm, provider):
+    provider.script(sends({"errors": [{"message": "the tea is cold"}]}, 418))
+    with pytest.raises(LLMError, match="the tea is cold"):
+        llm().complete(request())
+
+
+@pytest.mark.parametrize("seconds", [0, -1, "inf", "nan", 1e9])
+def test_a_timeout_is_a_number_of_seconds(seconds):
+    with pytest.raises(ValueError, match="timeout"):
+        Options(timeout=seconds)

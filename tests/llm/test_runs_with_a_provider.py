@@ -289,3 +289,13 @@ def test_the_right_address_is_said(cli, provider, path, monkeypatch):
     result = cli("run", "drawing/star", "--llm", "openai/tiny", "-L", f"api_base={address}", "--json")
     assert result.code == 3
     assert f"is -L api_base={provider.address} meant?" in result.json["error"]
+
+
+@pytest.mark.parametrize(
+    ("model", "word"), [("foo/bar", "no provider 'foo'"), ("veniceai/m", "VENICE_AI_API_KEY")]
+)
+def test_what_only_litellm_knows_is_found_before_the_run_too(cli, here, monkeypatch, model, word):
+    monkeypatch.delenv("VENICE_AI_API_KEY", raising=False)
+    result = cli("run", "drawing/star", "--llm", model, "--out", "r", "--json")
+    assert (result.code, word in result.json["error"]) == (3, True)
+    assert not (here / "r").exists()
