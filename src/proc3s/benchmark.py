@@ -224,7 +224,8 @@ def _search(case: Case, way: Way, setup: Setup, sketch: Sketch) -> Measurement:
     found.advance(problem.samples)
     if found.broken_off is not None:
         raise found.broken_off
-    error = str(found.halted) if found.halted else None
+    stopped = found.trials[-1].error if found.alike else found.halted
+    error = str(stopped) if stopped else None
     return meter.read(case, way, found.solution is not None, error)
 
 

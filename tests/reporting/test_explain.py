@@ -45,6 +45,26 @@ def test_the_same_as_data(cli, two_rounds):
     assert [item["kind"] for item in told["look"]] == ["not_judged", "pictures"]
 
 
+ALWAYS = """```python
+def gen_plan(initial, k, x):
+    o = initial.obstacles[min(int(k), 4)]
+    return [Action("draw_line", [o.x_pos, o.y_pos + FAR * x * o.radius, o.x_pos, o.y_pos + o.radius])]
+
+def gen_domain(initial):
+    return {"k": ContinuousSampler(0, 5), "x": ContinuousSampler(0, 1)}
+```"""
+
+
+@pytest.mark.parametrize(("far", "helps"), [("0", False), ("0.01", False), ("0.99", True)])
+def test_numbers_do_not_help_where_all_samples_fail_in_one_way_whatever_they_touch(cli, stub, far, helps):
+    given = ("--goal", "lines", "--samples", 200, "--feedback", 0, "--out", "run")
+    cli("run", "drawing/free", *given, "--llm", stub(ALWAYS.replace("FAR", far)))
+    done = cli("explain", "run")
+    assert "; line touches object_" in done.stdout
+    assert ("Every sample failed in the same place, so other numbers" in done.stdout) is not helps
+    assert ("Narrow it to that" in done.stdout or "Move that bound" in done.stdout) is helps
+
+
 def test_what_separates_better_samples_from_worse(cli):
     cli("run", "drawing/enclosed", "--samples", 500, "--feedback", 0, "--out", "run")
     done = cli("explain", "run")

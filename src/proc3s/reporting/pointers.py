@@ -1,5 +1,6 @@
 """Where a person would look: places that the diagnosis of a run points at. The words are in `look.j2`."""
 
+from collections import defaultdict
 from collections.abc import Iterator
 from typing import Any
 
@@ -10,6 +11,10 @@ from proc3s.reporting.story import Program, Story
 
 _HOPEFUL = 10
 """How many times the budget a search that gets further now and then is given on trial."""
+
+
+_ALIKE = 1.05
+"""Misses that differ by no more than this factor are one."""
 
 
 class Pointer(BaseModel):
@@ -26,10 +31,11 @@ def of_program(program: Program, story: Story) -> tuple[Pointer, ...]:
     diagnosis = program.diagnosis
     if diagnosis is None or program.ending == "solved":
         return ()
-    numbers = list(_numbers(diagnosis, program))
+    always = _always(diagnosis)
+    numbers = [] if always and _by_name_alone(program) else list(_numbers(diagnosis, program))
     found = [*_errors(diagnosis), *numbers]
-    if always := _always(diagnosis):
-        if not numbers:  # else other numbers may help
+    if always:
+        if not numbers:
             found.append(Pointer(kind="always", facts=always.model_dump()))
     elif _hopeful(diagnosis, story):
         found.append(Pointer(kind="more_samples", facts={"samples": _HOPEFUL * diagnosis.samples}))
@@ -54,6 +60,15 @@ def _always(diagnosis: Diagnosis) -> Failure | None:
     places = {(failure.step, failure.kind) for failure in diagnosis.failures}
     alone = len(places) == 1 and at_steps and at_steps[0].skill != "goal"
     return at_steps[0] if alone and diagnosis.samples > 1 else None
+
+
+def _by_name_alone(program: Program) -> bool:
+    """Whether samples miss by more or less only as they name this thing or that, whatever their numbers."""
+    missed: defaultdict[str, list[float]] = defaultdict(list)
+    for text, margin in zip(program.samples.text, program.samples.margin, strict=True):
+        if text is not None and margin is not None:
+            missed[text].append(margin)
+    return len(missed) > 1 and all(min(m) >= _ALIKE * max(m) for m in missed.values())
 
 
 def _numbers(diagnosis: Diagnosis, program: Program) -> Iterator[Pointer]:
