@@ -19,7 +19,7 @@ class Stub(LLM):
     def __init__(self, path: str, options: None) -> None:
         try:
             script = json.loads(read_text(Path(path)))
-        except (OSError, ValueError) as error:
+        except (OSError, ValueError, RecursionError) as error:
             raise LLMError(f"the script {path!r} cannot be read: {error}") from error
         self._rounds = [_candidates(element) for element in script] if isinstance(script, list) else []
         if not isinstance(script, list) or not all(self._rounds):

@@ -85,7 +85,7 @@ def _read(path: Path) -> Config:
         return validate(Config, tomllib.loads(read_text(path)), str(path))
     except (OSError, UnicodeDecodeError) as error:
         raise UsageError(f"{path} cannot be read: {error}") from error
-    except tomllib.TOMLDecodeError as error:
+    except (ValueError, RecursionError) as error:  # of TOML, of a number too long, of too many levels
         raise UsageError(f"{path}: {error}") from error
 
 

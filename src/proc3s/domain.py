@@ -1,18 +1,21 @@
 """A domain at work: its spec with what plugins attach, and its targets, imported when first used."""
 
 import inspect
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, get_type_hints
 
 import numpy as np
 from pydantic import TypeAdapter, ValidationError
 
 from proc3s.errors import Issue, SpecError, UsageError, blame, did_you_mean, not_wanted
+from proc3s.fitting import misfits, unfit_constraint
 from proc3s.specs import DomainSpec, ParamSpec, SamplerSpec, ScreenSpec, Target, TaskSpec
 from proc3s.state import Parameter, Signature, State, StateModel
+from proc3s.yamlfile import Document
 
 if TYPE_CHECKING:
     from proc3s.world import World
@@ -53,22 +56,25 @@ class Domain:
         return (*self.spec.screens, *getattr(world, "screens", ()))
 
     def require(self, task: TaskSpec) -> None:
-        """Import all that a run of a task needs. Raises SpecError with every target that is missing."""
+        """Import all that a run of a task needs. Raises SpecError with all that is missing or unfit."""
         spec = self.spec
-        named: list[tuple[str, Target | None]] = [("world", spec.world), ("execution", spec.execution)]
-        named += [(f"skills.{s.name}", s) for s in spec.skills.values()]
-        named += [(f"samplers.{s.name}", s) for s in self.samplers]
-        named += [(f"constraints.{c.name}", c) for c in spec.constraints.values()]
-        named += [(f"tasks.{task.name}.judge.{i}", judge) for i, judge in enumerate(task.judge)]
-        issues: list[Issue] = []
-        for field, target in named:
-            try:
-                _ = target and target.load()
-            except SpecError as error:
-                where = str(spec.folder / "domain.yaml") if spec.folder else f"domain {spec.name}"
-                issues += [Issue(where, f"{field}.target", i.message) for i in error.issues]
-        if issues:
-            raise SpecError(issues)
+        worlds = {"world": spec.world, **({"execution": spec.execution} if spec.execution else {})}
+        found: dict[str, Iterable[tuple[str, str]]] = {n: misfits(w, 1) for n, w in worlds.items()}
+        found |= {f"skills.{s.name}": misfits(s, 1 + len(s.params), {}) for s in spec.skills.values()}
+        found |= {f"samplers.{s.name}": misfits(s, 0, s.params) for s in self.samplers}
+        found |= {f"constraints.{c.name}": unfit_constraint(c) for c in spec.constraints.values()}
+        found |= {f"tasks.{task.name}.initial": misfits(task.initial, 1)}
+        found |= {f"tasks.{task.name}.judge.{i}": misfits(judge, 2) for i, judge in enumerate(task.judge)}
+        wrong = [(f"{part}.{field}", text) for part, faults in found.items() for field, text in faults]
+        if wrong:
+            raise SpecError([Issue(self._where(field), field, text) for field, text in wrong])
+
+    def _where(self, field: str) -> str:
+        """`file:line` of a dotted path if the domain's file has it."""
+        file = self.spec.folder / "domain.yaml" if self.spec.folder else Path()
+        lines = Document(file).lines if file.is_file() else {}
+        loc = tuple(int(part) if part.isdigit() else part for part in field.split("."))
+        return f"{file}:{lines[loc]}" if loc in lines else f"domain {self.spec.name}"
 
     def make_world(self, target: Target | None = None) -> "World[Any]":
         """A fresh world; `target` names another one than the reference world."""

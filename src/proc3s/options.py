@@ -22,8 +22,9 @@ from proc3s.registry import Registry
 from proc3s.samplers import Space
 from proc3s.sketch.errors import SketchError
 from proc3s.solving import Solver
-from proc3s.specfile import scalar, validate
+from proc3s.specfile import validate
 from proc3s.world import World
+from proc3s.yamlfile import scalar
 
 DEFAULT_SOLVER = "rejection"
 DEFAULT_PRESET = "best"

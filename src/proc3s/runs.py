@@ -171,7 +171,7 @@ def read_events(run: Path) -> list[dict[str, Any]]:
 def _parse(line: bytes, where: str) -> dict[str, Any]:
     try:
         event = json.loads(line)
-    except ValueError as error:
+    except (ValueError, RecursionError) as error:
         raise UsageError(f"{where}: not valid JSON: {error}") from error
     if not isinstance(event, dict) or "event" not in event:
         raise UsageError(f"{where}: not an event of a run")

@@ -1,105 +1,24 @@
 """Spec files: strict YAML into pydantic specs, with every mistake at once as `path:line: field: message`."""
 
 import importlib.util
-import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any, TypeAlias, TypeVar, get_args
+from typing import Any, TypeVar, get_args
 
-import yaml
 from pydantic import BaseModel, ValidationError
 
 from proc3s.errors import Issue, SpecError, blame, did_you_mean
 from proc3s.specs import DomainSpec, Spec
 from proc3s.state import SCALARS, split_type
-from proc3s.textfiles import read_text
+from proc3s.yamlfile import Document, Loc
 
-Loc: TypeAlias = tuple[str | int, ...]
 S = TypeVar("S", bound=Spec)
 M = TypeVar("M", bound=BaseModel)
-
-_PLAIN = "plain"
-
-# The scalars of YAML 1.2: `no` is a word, `1e-3` a number.
-_SCALARS = (
-    (re.compile(r"~|null|Null|NULL|"), lambda text: None),
-    (re.compile(r"true|True|TRUE"), lambda text: True),
-    (re.compile(r"false|False|FALSE"), lambda text: False),
-    (re.compile(r"[-+]?[0-9]+"), int),
-    (re.compile(r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?"), float),
-    (re.compile(r"[-+]?\.(inf|Inf|INF)|\.(nan|NaN|NAN)"), lambda text: float(text.replace(".", "").lower())),
-)
-
-
-def scalar(text: str) -> Any:
-    """An unquoted word as YAML 1.2 reads it; also the type of `key=value` on the command line."""
-    return next((convert(text) for pattern, convert in _SCALARS if pattern.fullmatch(text)), text)
-
-
-class _Loader(yaml.SafeLoader):
-    """Leaves plain words alone; only tags that the file itself writes are resolved."""
-
-    def resolve(self, kind: Any, value: Any, implicit: Any) -> Any:
-        if kind is yaml.ScalarNode and implicit[0]:
-            return _PLAIN
-        return super().resolve(kind, value, implicit)  # type: ignore[no-untyped-call]
-
-
-class _Document:
-    """Plain data of a YAML file, with the line of every key and the mistakes found while reading."""
-
-    def __init__(self, path: Path) -> None:
-        self.path = path
-        self.lines: dict[Loc, int] = {(): 1}
-        self.issues: list[tuple[Loc, int, str]] = []
-        self.data: Any = None
-        try:
-            node = yaml.compose(read_text(path), Loader=_Loader)
-        except yaml.MarkedYAMLError as error:
-            mark = error.problem_mark or error.context_mark
-            self.issues.append(((), mark.line + 1 if mark else 1, f"not valid YAML: {error.problem}"))
-        except (yaml.YAMLError, UnicodeDecodeError) as error:
-            self.issues.append(((), 1, f"not valid YAML: {error}"))
-        except OSError as error:
-            raise SpecError([Issue(str(path), "", f"cannot be read: {error.strerror}")]) from error
-        else:
-            self.data = self._plain(node, ()) if node else {}
-
-    def _plain(self, node: yaml.Node, loc: Loc, inside: tuple[yaml.Node, ...] = ()) -> Any:
-        self.lines.setdefault(loc, node.start_mark.line + 1)
-        if node in inside:
-            self.issues.append((loc, self.lines[loc], "an alias that contains itself"))
-            return None
-        inside = (*inside, node)
-        if isinstance(node, yaml.MappingNode):
-            return self._mapping(node, loc, inside)
-        if isinstance(node, yaml.SequenceNode):
-            return [self._plain(child, (*loc, i), inside) for i, child in enumerate(node.value)]
-        assert isinstance(node, yaml.ScalarNode)
-        return scalar(node.value) if node.tag == _PLAIN else node.value
-
-    def _mapping(self, node: yaml.MappingNode, loc: Loc, inside: tuple[yaml.Node, ...]) -> dict[str, Any]:
-        result: dict[str, Any] = {}
-        for key_node, value_node in node.value:
-            key, line = str(key_node.value), key_node.start_mark.line + 1
-            if key in result:
-                first = self.lines[(*loc, key)]
-                self.issues.append(
-                    ((*loc, key), line, f"the key {key!r} stands here a second time (first in line {first})")
-                )
-                continue
-            self.lines[(*loc, key)] = line
-            result[key] = self._plain(value_node, (*loc, key), inside)
-        return result
-
-    def line(self, loc: Loc) -> int:
-        """The line of a location, or of the nearest enclosing one that the file has."""
-        return next(self.lines[loc[:n]] for n in range(len(loc), -1, -1) if loc[:n] in self.lines)
 
 
 def load_spec(path: Path, model: type[S]) -> S:
     """Read a YAML file into a spec. Raises SpecError with all mistakes, in the order of their lines."""
-    document = _Document(path)
+    document = Document(path)
     spec, found = None, list(document.issues)
     if document.data is not None:
         try:

@@ -6,8 +6,10 @@ YAML (or a plugin's Python) says *what*, in words and numbers; `target` says whi
 import importlib
 import itertools
 import math
+import re
 from collections.abc import Mapping
 from pathlib import Path
+from string import Formatter
 from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import (
@@ -29,10 +31,37 @@ ImportString = Annotated[str, Field(pattern=r"^[\w.]+:\w+$", examples=["my_packa
 FieldType = Annotated[str, Field(pattern=r"^(\w+|list\[\w+\]|dict\[\w+\])$")]
 
 
+Count = Annotated[int, Field(ge=1)]
+
+
+def _sentence(text: str) -> str:
+    """Raises ValueError if a sentence cannot be filled in."""
+    placeholders(text)
+    return text
+
+
+Sentence = Annotated[str, AfterValidator(_sentence)]
+
+
+def placeholders(text: str) -> list[str]:
+    """The names in `{…}` of a sentence. Raises ValueError if it is malformed; `{{` and `}}` are braces."""
+    try:
+        fields = [field for _, field, _, _ in Formatter().parse(text) if field is not None]
+        names = [re.split(r"[.[]", field)[0] for field in fields]
+        text.format_map(dict.fromkeys(names, "x"))
+    except (ValueError, KeyError, IndexError, AttributeError, TypeError) as error:
+        raise ValueError(
+            f"cannot be filled in ({error}); a detail is named {{so}}, a brace is {{{{"
+        ) from error
+    if strange := [name for name in names if not name.isidentifier()]:
+        raise ValueError(f"a detail has a name, not {strange[0]!r}; a brace is {{{{")
+    return names
+
+
 class Spec(BaseModel):
     """Base of all specs. `kind` is the plural under which `proc3s list` shows them."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
+    model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True, allow_inf_nan=False)
     kind: ClassVar[str] = ""
 
 
@@ -137,9 +166,9 @@ class ParamSpec(Spec):
     """Unit of the number, as the LLM reads it."""
     says: str = ""
     """A few words for the reader of the prompt."""
-    min: float = -math.inf
+    min: float = Field(-math.inf, allow_inf_nan=True)
     """Smallest legal value of a number."""
-    max: float = math.inf
+    max: float = Field(math.inf, allow_inf_nan=True)
     """Largest legal value of a number."""
     noise: float = Field(0.0, ge=0)
     """Standard deviation at full scale for the Gaussian methods, in the parameter's unit; 0: left alone.
@@ -153,6 +182,8 @@ class ParamSpec(Spec):
     def _complete(self) -> "ParamSpec":
         if self.type == "str" and not self.choices:
             raise ValueError("a parameter of type str needs choices")
+        if math.isnan(self.min) or math.isnan(self.max) or self.min == math.inf or self.max == -math.inf:
+            raise ValueError(f"min {self.min} and max {self.max} leave no legal value")
         if self.min > self.max:
             raise ValueError(f"min {self.min} is above max {self.max}")
         if self.noise and self.type not in ("float", "point", "pose", "grasp"):
@@ -199,7 +230,7 @@ class ConstraintSpec(Target):
     kind: ClassVar[str] = "constraints"
     name: Annotated[Identifier, _not_called("goal", "rehearsal", "world")] = ""
     """Its key, where it stands in a mapping; a plugin gives it. The names of other verdicts are taken."""
-    says: str
+    says: Sentence
     """The sentence of a violation; `{…}` takes details that the margin carries."""
     rule: str = ""
     """The rule as a sentence, for prompts that list the constraints."""
@@ -238,7 +269,7 @@ class TaskSpec(Spec):
     """`target(rng, **args) -> data` makes the scene; plain data of the state type."""
     judge: tuple[Target, ...] = ()
     """Each `target(state, plan, **args) -> Score`; none: nobody checks the outcome."""
-    budget: dict[str, int] = Field(default_factory=dict)
+    budget: dict[str, Count] = Field(default_factory=dict)
     """Samples per problem by preset, where they differ from the domain's."""
 
 
@@ -247,7 +278,7 @@ class ExampleSpec(TaskSpec):
 
     instruction: str
     """What to do, in plain language."""
-    seed: int = 0
+    seed: int = Field(0, ge=0)
     """Seed of its scene."""
 
 
@@ -289,7 +320,7 @@ class DomainSpec(Spec):
     """Cheap tests before the world, in order."""
     tasks: Annotated[dict[TaskName, TaskSpec], Named]
     """Tasks of this domain."""
-    budget: dict[str, int]
+    budget: dict[str, Count]
     """Samples per problem by preset."""
     examples: Annotated[dict[Identifier, ExampleSpec], Named] = Field(default_factory=dict)
     """Worked examples, none of them a task."""

@@ -16,6 +16,10 @@ def read_text(path: Path) -> str:
 
     UTF-8, or UTF-16 where a mark says so. Raises OSError, or UnicodeDecodeError if it is no text.
     """
-    data = path.read_bytes()
+    return decoded(path.read_bytes())
+
+
+def decoded(data: bytes) -> str:
+    """The same of the bytes of a file. Raises UnicodeDecodeError."""
     encoding = next((name for mark, name in _MARKS.items() if data.startswith(mark)), "utf-8")
     return io.StringIO(data.decode(encoding), newline=None).getvalue()

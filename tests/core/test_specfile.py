@@ -2,7 +2,7 @@ import pytest
 import toy_world
 
 from proc3s import DomainSpec, SpecError, load_domain
-from proc3s.specfile import scalar
+from proc3s.yamlfile import scalar
 
 
 def lines_of(error):

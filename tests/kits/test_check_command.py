@@ -122,7 +122,7 @@ def test_a_skill_nobody_uses_is_a_note(push, cli):
         push / "domain.yaml",
         "samplers: [Con",
         '  nudge: {summary: Nudges., target: "proc3s_push.domain:push", '
-        "params: {puck: {type: object}}}\nsamplers: [Con",
+        "params: {puck: {type: object}, dx: {type: float}, dy: {type: float}}}\nsamplers: [Con",
     )
     result = cli("check", push, "--json")
     assert result.code == 0
