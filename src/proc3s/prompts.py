@@ -20,6 +20,7 @@ from proc3s.shares import portion
 from proc3s.specs import ExampleSpec, MethodSpec, PresetSpec
 from proc3s.state import State, source_text
 from proc3s.textfiles import read_text
+from proc3s.wording import plain
 
 _TURN = re.compile(r"^<!-- (answer|feedback) -->\n", re.MULTILINE)
 
@@ -123,7 +124,7 @@ def _environment(folders: Sequence[Path]) -> ImmutableSandboxedEnvironment:
         keep_trailing_newline=True,
         autoescape=False,
     )
-    environment.filters |= {"state_text": state_text, "portion": portion}
+    environment.filters |= {"state_text": state_text, "portion": portion, "plain": plain}
     return environment
 
 

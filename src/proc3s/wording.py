@@ -1,6 +1,8 @@
-"""Numbers in sentences: one thing, two things, and sums of which a part is not known."""
+"""Numbers in sentences: one thing, two things, measures, and sums of which a part is not known."""
 
+import math
 from collections.abc import Sequence
+from decimal import Decimal
 
 
 def count(number: int, what: str) -> str:
@@ -15,3 +17,19 @@ def total(parts: Sequence[float | None], form: str) -> str:
         return "?"
     text = form.format(sum(known))
     return text if len(known) == len(parts) else f"at least {text}"
+
+
+def plain(value: float, digits: int = 2) -> str:
+    """A measure as people write it: so many digits, and all of those before the point, but no exponent."""
+    if not math.isfinite(value):
+        return "infinity" if value > 0 else str(value)
+    if abs(value) >= 10**digits:
+        return f"{value:.0f}"
+    return f"{Decimal(f'{value + 0.0:.{digits}g}'):f}"
+
+
+class Measure(float):
+    """A number that a sentence of somebody else shows, by `{name}` alone, as people write it."""
+
+    def __format__(self, form: str) -> str:
+        return super().__format__(form) if form else plain(self, 3)

@@ -3,7 +3,9 @@ import pytest
 import toy_world
 
 from proc3s import Action, Margin, SpecError, Violation
+from proc3s.constraints import sentence
 from proc3s.problem import carry_out
+from proc3s.wording import plain
 
 SLIDE = Action("slide", ("object_0", 3.0))
 FAR = Action("slide", ("object_0", 50.0))
@@ -119,3 +121,27 @@ def test_an_infinite_violation_is_still_valid_json(tmp_path):
     assert not trial.accepted
     event = BatchEvaluated.from_trials(0, 0, [trial]).model_dump(mode="json")
     json.dumps(event, allow_nan=False)
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (103.2, "103"),
+        (0.012345, "0.0123"),
+        (1e-5, "0.00001"),
+        (1e5, "100000"),
+        (0.1 + 0.2, "0.3"),
+        (5.0, "5"),
+        (float("inf"), "infinity"),
+        (np.float32(0.5), "0.5"),
+    ],
+)
+def test_numbers_in_a_sentence_are_written_as_people_do(tmp_path, value, text):
+    spec = with_constraint(tmp_path, "-1", says="off by {gap}, {gap:.1f} exactly").domain.spec
+    said = sentence(spec.constraints["mine"], {"gap": value})
+    assert said == f"off by {text}, {value:.1f} exactly"
+
+
+@pytest.mark.parametrize(("value", "text"), [(100.4, "100"), (99.6, "100"), (0.0123, "0.012"), (-0.0, "0")])
+def test_a_miss_is_told_without_an_exponent(value, text):
+    assert plain(value) == text

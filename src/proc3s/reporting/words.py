@@ -13,6 +13,7 @@ from proc3s.errors import Issue, SpecError, UsageError
 from proc3s.registry import Registry
 from proc3s.shares import portion
 from proc3s.specs import TemplatesSpec
+from proc3s.wording import plain
 
 
 def folders_of(registry: Registry) -> tuple[Path, ...]:
@@ -36,6 +37,7 @@ class Words:
         )
         self._environment.filters |= {
             "number": number,
+            "plain": plain,
             "portion": portion,
             "sampler": sampler,
             "ticks": ticks,
@@ -79,4 +81,4 @@ def number(value: Any) -> str:
     """A number to four digits and nine decimals, also within a pose; anything else as it is."""
     if isinstance(value, list | tuple):
         return f"({', '.join(map(number, value))})"
-    return f"{round(value, _DECIMALS) + 0.0:.4g}" if isinstance(value, float) else str(value)
+    return plain(round(value, _DECIMALS), 4) if isinstance(value, float) else str(value)
