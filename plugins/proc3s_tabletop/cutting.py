@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from proc3s import FloatArray
+from proc3s_tabletop.extents import FLAT, thickness
 
 MOST = 64
 """Parts at most."""
@@ -50,7 +51,7 @@ def cut(mesh: Any) -> list[FloatArray] | None:
         if not halves:
             parts.append(worst._replace(bad=0.0))
         parts += [_part(points, areas, half) for half in halves]
-    return [points[part.points] for part in parts]
+    return [points[part.points] for part in parts if thickness(points[part.points]) > FLAT]
 
 
 def _points(mesh: Any) -> tuple[FloatArray, FloatArray]:
@@ -80,13 +81,16 @@ def _inside(mesh: Any) -> FloatArray:
 
 
 def _part(points: FloatArray, areas: FloatArray, which: Indices) -> Part:
-    from scipy.spatial import ConvexHull
+    from scipy.spatial import ConvexHull, QhullError
 
     surface = which[areas[which] > 0]
     if not len(surface):
         return Part(which, 0.0)
     seen = surface[:: max(1, len(surface) // JUDGED)]
-    deep = _depth(ConvexHull(points[which]), points[seen]) > TOLERANCE
+    try:
+        deep = _depth(ConvexHull(points[which]), points[seen]) > TOLERANCE
+    except QhullError:  # a fin without thickness is no part of a body
+        return Part(which, 0.0)
     return Part(which, float(areas[seen][deep].sum() / areas[seen].sum() * areas[surface].sum()))
 
 

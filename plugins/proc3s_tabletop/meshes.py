@@ -8,7 +8,8 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from proc3s import FloatArray
+from proc3s import FloatArray, UsageError
+from proc3s.wording import plain
 from proc3s_tabletop import mesh_cache
 from proc3s_tabletop.bodies import MARGIN, Mesh, Surface
 
@@ -24,13 +25,17 @@ SLIVER = 0.001
 Turn: TypeAlias = tuple[float, float, float]
 
 
+class MeshError(ValueError):
+    """A file that is no mesh of a body; the sentence begins with its name."""
+
+
 def prepare(path: Path, scale: float = 1.0, turn: Turn = (0.0, 0.0, 0.0)) -> Mesh:
     """A mesh file as a body in metres: `scale` times its numbers, turned by roll, pitch, yaw (rad), at rest.
 
-    Raises ValueError that says what is wrong with a file that is no mesh of a body.
+    Raises MeshError that says what is wrong with a file that is no mesh of a body.
     """
     if not path.is_file():
-        raise ValueError(f"there is no file {path}")
+        raise MeshError(f"there is no file {path}")
     stat = path.stat()
     return _prepared(path, scale, turn, (stat.st_mtime_ns, stat.st_size))
 
@@ -40,7 +45,7 @@ def _prepared(path: Path, scale: float, turn: Turn, version: tuple[int, int]) ->
     content = path.read_bytes()
     said = f"{FORMAT} {path.suffix.lower()} {scale!r} {turn!r} {MARGIN!r}\n"
     key = hashlib.sha256(said.encode() + content).hexdigest()
-    found = mesh_cache.kept(key, lambda: _made(path, scale, turn))
+    found = mesh_cache.kept(key, lambda: _made_or_said(path, scale, turn))
     counts = np.cumsum(found["counts"])[:-1]
     return Mesh(
         key,
@@ -51,15 +56,29 @@ def _prepared(path: Path, scale: float, turn: Turn, version: tuple[int, int]) ->
     )
 
 
+def _made_or_said(path: Path, scale: float, turn: Turn) -> mesh_cache.Arrays:
+    """The same as `_made`; where geometry fails in some library, a sentence."""
+    try:
+        return _made(path, scale, turn)
+    except (MeshError, UsageError):
+        raise
+    except Exception as error:  # Qhull, scipy, trimesh and CoACD have each their own
+        raise MeshError(f"{path.name} cannot be made a body: {_first_line(error)}") from error
+
+
+def _first_line(error: Exception) -> str:
+    return next(iter(str(error).strip().splitlines()), type(error).__name__)
+
+
 def _made(path: Path, scale: float, turn: Turn) -> mesh_cache.Arrays:
     """Everything that is known of a mesh, as arrays."""
-    from proc3s_tabletop.pieces import pieces_of
+    from proc3s_tabletop.pieces import closed, pieces_of
     from proc3s_tabletop.resting import rest
     from proc3s_tabletop.surfaces import distance
 
     mesh = _read(path, scale, turn)
     pieces = pieces_of(mesh)
-    middle = mesh.center_mass if mesh.is_watertight else _middle(pieces)
+    middle = mesh.center_mass if closed(mesh) else _middle(pieces)
     pieces = [piece - middle for piece in pieces]
     turned = rest(pieces)
     pieces = [piece @ turned.T for piece in pieces]
@@ -81,19 +100,22 @@ def _read(path: Path, scale: float, turn: Turn) -> Any:
 
     try:
         mesh = trimesh.load_mesh(path)
+    except ImportError as error:
+        text = f"{path.name} is of a format that needs another package ({_first_line(error)})"
+        raise MeshError(f"{text}; take STL, OBJ, PLY or GLB") from error
     except Exception as error:  # every reader of trimesh has its own way to fail
-        raise ValueError(f"{path.name} cannot be read as a mesh: {error}") from error
+        raise MeshError(f"{path.name} cannot be read as a mesh: {_first_line(error)}") from error
     if not len(getattr(mesh, "faces", ())) or not np.isfinite(mesh.vertices).all():
-        raise ValueError(f"{path.name} holds no triangles")
+        raise MeshError(f"{path.name} holds no triangles")
     mesh = _without_slivers(mesh)
     mesh.apply_scale(scale)
     size = np.ptp(mesh.vertices, axis=0)
     if size.min() < SMALLEST or size.max() > LARGEST:
-        raise ValueError(
-            f"{path.name} is {' x '.join(f'{edge:.4g}' for edge in size)} m: is its scale right?"
+        raise MeshError(
+            f"{path.name} is {' x '.join(plain(edge, 4) for edge in size.tolist())} m: is its scale right?"
         )
     if thickness(mesh.vertices) < FLAT:
-        raise ValueError(f"{path.name} is flat")
+        raise MeshError(f"{path.name} is flat")
     matrix = np.eye(4)
     matrix[:3, :3] = rotation(*turn)
     mesh.apply_transform(matrix)
@@ -103,7 +125,8 @@ def _read(path: Path, scale: float, turn: Turn) -> Any:
 def _without_slivers(mesh: Any) -> Any:
     from trimesh.util import concatenate
 
-    parts = mesh.split(only_watertight=False)
+    # A repair would need another package; what is taken apart may have holes.
+    parts = mesh.split(only_watertight=False, repair=False)
     least = SLIVER * max(part.area for part in parts)
     return concatenate([part for part in parts if part.area >= least])
 

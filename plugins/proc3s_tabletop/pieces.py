@@ -20,9 +20,14 @@ def pieces_of(mesh: Any) -> list[FloatArray]:
 
     The same mesh always gives the same pieces: between a few planes, where those do, or else CoACD's.
     """
-    sparse = mesh.is_watertight and abs(mesh.volume) < FULL * mesh.convex_hull.volume
+    sparse = closed(mesh) and abs(mesh.volume) < FULL * mesh.convex_hull.volume
     parts = None if sparse else cut(mesh)
     return [core(points) for points in parts or take_apart(mesh)]
+
+
+def closed(mesh: Any) -> bool:
+    """Whether a mesh encloses a volume that can be measured: it has no holes, and one outside."""
+    return bool(mesh.is_watertight and mesh.is_winding_consistent)
 
 
 def core(points: FloatArray) -> FloatArray:

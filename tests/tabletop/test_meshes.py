@@ -131,3 +131,74 @@ def test_files_that_are_no_body(fresh, tmp_path, cup):
             mesh(tmp_path / name)
     with pytest.raises(SpecError, match="is its scale right"):
         mesh(cup)
+
+
+BOX = trimesh.creation.box((0.05, 0.04, 0.03))
+
+
+def without(count):
+    """The box without some of its triangles."""
+    holed = BOX.copy()
+    holed.update_faces(np.arange(len(BOX.faces)) >= count)
+    return holed
+
+
+def with_faces(faces, more=()):
+    return trimesh.Trimesh([*BOX.vertices.tolist(), *more], faces, process=False)
+
+
+SOUP = BOX.triangles.reshape(-1, 3)
+ODD = {
+    "a side open.stl": without(2),
+    "a triangle missing.obj": without(1),
+    "open.glb": without(2),
+    "inside out.ply": with_faces(BOX.faces[:, ::-1]),
+    "some triangles inside out.obj": with_faces([*BOX.faces[:5, ::-1], *BOX.faces[5:]]),
+    "every corner several times.ply": trimesh.Trimesh(SOUP, np.arange(36).reshape(-1, 3), process=False),
+    "with a fin.obj": with_faces([*BOX.faces, [0, 1, 8]], [[0, 0, 0.02]]),
+    "plain.off": BOX,
+}
+
+
+@pytest.mark.parametrize("name", ODD)
+def test_a_mesh_with_a_fault_is_a_body_all_the_same(fresh, tmp_path, name):
+    """Scans have holes; no package beyond those of the extra mends or reads them."""
+    ODD[name].export(tmp_path / name)
+    hull = mesh(tmp_path / name, scale=1.0).shape.corners()
+    assert np.ptp(hull, axis=0) == pytest.approx([0.05, 0.04, 0.03], abs=0.006)
+    assert np.abs(hull.min(axis=0) + hull.max(axis=0)).max() < 0.006
+
+
+FILES = {
+    "empty.stl": (b"", "holds no triangles"),
+    "empty.ply": (b"", "cannot be read as a mesh"),
+    "noise.stl": (b"\x00\xff" * 300, "holds no triangles"),
+    "noise.glb": (b"glTF" + b"\0" * 50, "cannot be read as a mesh"),
+    "points.ply": (
+        b"ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+        b"end_header\n0 0 0\n",
+        "holds no triangles",
+    ),
+    "dangling.obj": (b"v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nf 1 2 9\n", "cannot be read as a mesh"),
+    "nowhere.obj": (b"v nan 0 0\nv nan 0 0\nv 0 nan 0\nf 1 2 3\n", "nowhere.obj"),
+    "line.obj": (b"v 0 0 0\nv .1 0 0\nv .1 0 0\nf 1 2 3\n", "is its scale right"),
+    "one.obj": (b"v 0 0 0\nv .1 0 0\nv 0 .1 .1\nf 1 2 3\n", "is flat"),
+    "part.step": (b"ISO-10303-21;", "another package"),
+    "model.blend": (b"BLENDER", "cannot be read as a mesh"),
+}
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_what_is_wrong_with_a_file_is_one_sentence(fresh, tmp_path, name):
+    content, words = FILES[name]
+    (tmp_path / name).write_bytes(content)
+    with pytest.raises(SpecError, match=words) as caught:
+        mesh(tmp_path / name, scale=1.0)
+    assert f"{name} " in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_size_is_told_without_an_exponent(fresh, tmp_path):
+    BOX.copy().apply_scale(1e6).export(tmp_path / "vast.stl")
+    with pytest.raises(SpecError, match=r"vast.stl is 50000 x 40000 x 30000 m: is its scale right\?"):
+        mesh(tmp_path / "vast.stl", scale=1.0)
