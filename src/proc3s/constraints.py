@@ -12,7 +12,7 @@ import numpy as np
 from proc3s.domain import Domain
 from proc3s.errors import Issue, SpecError, blame, not_wanted
 from proc3s.specs import ConstraintSpec
-from proc3s.wording import Measure
+from proc3s.wording import plain
 from proc3s.world import Transition
 
 
@@ -85,7 +85,7 @@ def _margin(name: str, value: object) -> Margin | None:
 def sentence(spec: ConstraintSpec, details: Mapping[str, str]) -> str:
     """The text of a violation of a constraint. Raises SpecError if a placeholder is left without a detail."""
     try:
-        return spec.says.format_map({k: _shown(detail) for k, detail in details.items()})
+        return spec.says.format_map({k: _shown(v) for k, v in details.items()})
     except (KeyError, ValueError, IndexError, AttributeError, TypeError) as error:
         message = f"the margin carries no detail {error} ({', '.join(details) or 'it carries none'})"
         raise SpecError([Issue(f"constraint {spec.name}", "says", message)]) from error
@@ -93,4 +93,4 @@ def sentence(spec: ConstraintSpec, details: Mapping[str, str]) -> str:
 
 def _shown(detail: object) -> object:
     """A detail is a text; where it is a number all the same, the sentence shows it as people write it."""
-    return Measure(detail) if isinstance(detail, float | np.floating) else detail
+    return plain(float(detail), 3) if isinstance(detail, float | np.floating) else detail

@@ -26,10 +26,3 @@ def plain(value: float, digits: int = 2) -> str:
     if abs(value) >= 10**digits:
         return f"{value:.0f}"
     return f"{Decimal(f'{value + 0.0:.{digits}g}'):f}"
-
-
-class Measure(float):
-    """A number that a sentence of somebody else shows, by `{name}` alone, as people write it."""
-
-    def __format__(self, form: str) -> str:
-        return super().__format__(form) if form else plain(self, 3)

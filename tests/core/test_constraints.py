@@ -137,9 +137,9 @@ def test_an_infinite_violation_is_still_valid_json(tmp_path):
     ],
 )
 def test_numbers_in_a_sentence_are_written_as_people_do(tmp_path, value, text):
-    spec = with_constraint(tmp_path, "-1", says="off by {gap}, {gap:.1f} exactly").domain.spec
+    spec = with_constraint(tmp_path, "-1", says="off by {gap}").domain.spec
     said = sentence(spec.constraints["mine"], {"gap": value})
-    assert said == f"off by {text}, {value:.1f} exactly"
+    assert said == f"off by {text}"
 
 
 @pytest.mark.parametrize(("value", "text"), [(100.4, "100"), (99.6, "100"), (0.0123, "0.012"), (-0.0, "0")])

@@ -1,6 +1,7 @@
 """Screens of the table-top reject only what the world rejects, and say the same of it."""
 
 import dataclasses
+import json
 
 import numpy as np
 import pytest
@@ -9,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from test_actions import PASS, A, B, C, place
 
-from proc3s import Action, PlanBatch
+from proc3s import Action, PlanBatch, Problem
 from proc3s.benchmark import SCREENED, Bench, find_cases
 from proc3s.problem import carry_out
 from proc3s.registry import open_registry
@@ -50,7 +51,8 @@ def world_says(plan, scene):
     made = open_registry().domain("blocks")
     world = made.make_world()
     try:
-        problem = dataclasses.make_dataclass("P", ["domain", "initial"])(made, scene)
+        as_json = json.dumps(made.states.dump(scene))
+        problem = Problem(made, made.spec.tasks["line"], as_json, goal="", seed=0, samples=1)
         actions = tuple(Action(skill, tuple(map(float, point))) for skill, *point in plan)
         return carry_out(world, problem, actions)[0].violations[0]
     finally:

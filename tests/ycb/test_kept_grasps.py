@@ -1,13 +1,14 @@
 """Grasps of a body that stands alone: measured once for all runs, and what the screen makes of them."""
 
 import dataclasses
+import json
 import subprocess
 import sys
 
 import numpy as np
 import pytest
 
-from proc3s import Action, PlanBatch, Pose
+from proc3s import Action, PlanBatch, Pose, Problem
 from proc3s.problem import rollout
 from proc3s.registry import open_registry
 from proc3s_tabletop.body_specs import bodies_of
@@ -118,7 +119,8 @@ def world():
 
 
 def verdicts_of_world(world, name, wanted):
-    problem = dataclasses.make_dataclass("P", ["domain", "initial", "check_goal"])(YCB, SCENE, False)
+    scene, task = json.dumps(YCB.states.dump(SCENE)), YCB.spec.tasks["packing"]
+    problem = Problem(YCB, task, scene, goal="", seed=0, samples=1)
     for grasp in wanted:
         yield rollout(world, problem, (Action("pick", (name, Pose(*grasp.tolist()))),)).violations
 
