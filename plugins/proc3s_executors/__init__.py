@@ -13,6 +13,7 @@ def register_executors(register: Callable[[ExecutorSpec], None]) -> None:
             name="serial",
             summary="One plan after the other in this process.",
             target="proc3s_executors.serial:Serial",
+            most_jobs=1,
         )
     )
     register(

@@ -20,12 +20,12 @@ from proc3s.evaluation import Evaluator, Sketch
 from proc3s.executors import Executor
 from proc3s.grounding import Setup, open_sketch
 from proc3s.influence import influence
-from proc3s.options import RunOptions, key_values, make_problem, make_setup
+from proc3s.options import RunOptions, key_values, make_executor, make_problem, make_setup
 from proc3s.problem import Problem, Trial
 from proc3s.registry import Registry
 from proc3s.samplers import Space
 from proc3s.solving import Search
-from proc3s.specs import DomainSpec, ExecutorSpec
+from proc3s.specs import DomainSpec
 from proc3s.textfiles import read_text
 
 _SCENE = "# scene:"
@@ -144,7 +144,7 @@ class Bench:
         self._samples = samples
         kinds = {(way.executor, way.jobs) for way in self._ways}
         self._executors: dict[tuple[str, int], Executor] = {
-            (name, jobs): registry.get(ExecutorSpec, name).load()(jobs=jobs) for name, jobs in sorted(kinds)
+            (name, jobs): make_executor(registry, name, jobs) for name, jobs in sorted(kinds)
         }
         self._warm: set[str] = set()
 

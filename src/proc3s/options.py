@@ -67,7 +67,11 @@ def key_values(pairs: list[str]) -> dict[str, str]:
     for pair in pairs:
         if "=" not in pair:
             raise UsageError(f"an option is given as key=value, not {pair!r}")
-    return dict(pair.split("=", 1) for pair in pairs)
+    values = dict(pair.split("=", 1) for pair in pairs)
+    for name in values:
+        if len({pair for pair in pairs if pair.split("=", 1)[0] == name}) > 1:
+            raise UsageError(f"the option {name!r} is given several times, with different values")
+    return values
 
 
 def select_method(registry: Registry, options: RunOptions) -> specs.MethodSpec:
@@ -75,6 +79,8 @@ def select_method(registry: Registry, options: RunOptions) -> specs.MethodSpec:
     method = registry.get(specs.MethodSpec, options.method)
     changes: dict[str, Any] = dict(options.method_options)
     if options.feedback is not None:
+        if "rounds" in options.method_options:
+            raise UsageError("--feedback and -M rounds=… say the same; leave one of them out")
         changes["rounds"] = options.feedback
     return validate(specs.MethodSpec, {**method.model_dump(), **changes}, f"method {method.name}")
 
@@ -85,6 +91,8 @@ def make_problem(registry: Registry, options: RunOptions, goal_needed: bool = Tr
     Raises UsageError if the task has no instruction of its own and `goal` gives none.
     """
     domain, task = registry.task(options.task)
+    if options.goal is not None and not options.goal.strip():
+        raise UsageError("--goal is empty; leave it out, or say what is to be done")
     goal = options.goal or task.instruction
     if goal is None and goal_needed:
         raise UsageError(f'{options.task} has no instruction of its own; give one with --goal "…"')
@@ -126,6 +134,19 @@ def _template_folders(registry: Registry, domain: Domain) -> list[Path]:
     return [*([own] if own and own.is_dir() else []), *reversed(registered)]
 
 
+def make_executor(registry: Registry, name: str, jobs: int) -> Executor:
+    """The executor with so many jobs. Raises UsageError if it has no use for them."""
+    spec = registry.get(specs.ExecutorSpec, name)
+    if spec.most_jobs is not None and jobs > spec.most_jobs:
+        raise UsageError(
+            f"the executor {name} takes at most --jobs {spec.most_jobs}, not {jobs}; leave one of the two out"
+        )
+    make = spec.load()
+    with blame(f"executor {name}"):
+        executor: Executor = make(jobs=jobs)
+    return executor
+
+
 def make_setup(registry: Registry, options: RunOptions, problem: Problem) -> Setup:
     """The parts of the second stage: solver, executor, method and preset."""
     method = select_method(registry, options)
@@ -134,9 +155,7 @@ def make_setup(registry: Registry, options: RunOptions, problem: Problem) -> Set
     solver = registry.get(specs.SolverSpec, name)
     solver_options = part_options(solver, options.solver_options)
     make = solver.load()
-    make_executor = registry.get(specs.ExecutorSpec, options.executor).load()
-    with blame(f"executor {options.executor}"):
-        executor: Executor = make_executor(jobs=options.jobs)
+    executor = make_executor(registry, options.executor, options.jobs)
     problem.domain.require(problem.task)
     limits, clock_limits = make_limits(options.limits)
     if problem.robust and problem.domain.spec.world.load().disturb is World.disturb:

@@ -426,6 +426,8 @@ class ExecutorSpec(Target):
     """What `--executor` calls it."""
     summary: str
     """One sentence for `proc3s list`."""
+    most_jobs: int | None = Field(None, ge=1)
+    """More jobs than these change nothing, and are refused; null for any number."""
 
 
 class TemplatesSpec(Spec):

@@ -43,7 +43,7 @@ def bench(
     llm_jobs: a.LlmJobs = None,
     record: a.Record = None,
     max_cost: Annotated[
-        float | None, typer.Option("--max-cost", help="US dollars that all live answers may cost")
+        float | None, typer.Option("--max-cost", min=0, help="US dollars that all live answers may cost")
     ] = None,
     check_goal: a.CheckGoal = None,
     resume: Annotated[
@@ -57,14 +57,17 @@ def bench(
         int | None, typer.Option("--samples", min=1, help="limit of a search  [the task's budget]")
     ] = None,
     throughput: Annotated[
-        int, typer.Option("--throughput", min=0, help="samples of the run in large batches; 0: none")
-    ] = 4096,
+        int | None,
+        typer.Option("--throughput", min=0, help="ccsp: samples in large batches; 0: none  [default: 4096]"),
+    ] = None,
     robust: Annotated[
-        int, typer.Option("--robust", min=0, help="execution: rehearsals, compared with none")
-    ] = 2,
+        int | None,
+        typer.Option("--robust", min=0, help="execution: rehearsals, compared with none  [default: 2]"),
+    ] = None,
     times: Annotated[
-        int, typer.Option("--times", min=1, help="execution: how often every plan is carried out")
-    ] = 10,
+        int | None,
+        typer.Option("--times", min=1, help="execution: how often every plan is carried out  [default: 10]"),
+    ] = None,
     out: Annotated[Path | None, typer.Option("--out", help="folder of the results  [runs/bench-…]")] = None,
     plugin: a.Plugins = None,
     json: a.Json = False,
@@ -72,10 +75,32 @@ def bench(
     """Run a suite of tasks by methods and seeds, and make its tables. Or measure how fast programs are
     searched, every solver against the plain path, paired by seed; or how often the plans that are found lead
     to the goal when they are carried out with small errors."""
-    from proc3s.cli.benching import SUITES, Wanted, run_bench
+    from proc3s.cli.benching import SUITES, Wanted, refuse_empty, refuse_unused, run_bench
     from proc3s.cli.field_testing import run_field_test
     from proc3s.cli.suite_running import SuiteWanted, run_suite
 
+    of_suites = {
+        "--methods": methods,
+        "--preset": preset,
+        "--llm": llm,
+        "-L": llm_options,
+        "--llm-jobs": llm_jobs,
+        "--record": record,
+        "--max-cost": max_cost,
+        "--check-goal": check_goal,
+        "--resume": resume,
+        "--limit": limits,
+    }
+    of_searches = {"--solvers": solvers, "--executor": executor, "--throughput": throughput}
+    of_plans = {"--robust": robust, "--times": times}
+    refuse_unused(
+        suite,
+        {
+            "ccsp": {**of_suites, **of_plans},
+            "execution": {**of_suites, **of_searches, "--jobs": jobs},
+        }.get(suite, {**of_searches, **of_plans, **({"--out": out} if resume else {})}),
+    )
+    refuse_empty({"--tasks": tasks, "--methods": methods, "--preset": preset, "--solvers": solvers})
     if suite not in SUITES:
         run_suite(
             SuiteWanted(
@@ -108,9 +133,9 @@ def bench(
         executor=executor or ("processes" if (jobs or 1) > 1 else "serial"),
         jobs=jobs or 1,
         samples=samples,
-        throughput=throughput,
-        robust=robust,
-        times=times,
+        throughput=4096 if throughput is None else throughput,
+        robust=2 if robust is None else robust,
+        times=times or 10,
         plugins=tuple(plugin or ()),
     )
     {"ccsp": run_bench, "execution": run_field_test}[suite](wanted, out, json)

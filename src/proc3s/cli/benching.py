@@ -1,7 +1,7 @@
 """A benchmark from the command line: what is wanted, measured one by one, as a table and as files."""
 
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -73,6 +73,20 @@ class Results:
                 "throughput": [asdict(m) for m in self.throughput],
             },
         }
+
+
+def refuse_unused(suite: str, options: Mapping[str, Any]) -> None:
+    """Raises UsageError for an option that was given, and changes nothing of this benchmark."""
+    for name, value in options.items():
+        if value is not None:
+            raise UsageError(f"{name} changes nothing of `bench {suite}`; leave it out")
+
+
+def refuse_empty(options: Mapping[str, Sequence[str] | None]) -> None:
+    """Raises UsageError for a list of names that was given without any."""
+    for name, values in options.items():
+        if values is not None and not any(part for value in values for part in value.split(",")):
+            raise UsageError(f"{name} is empty; leave it out, or name some")
 
 
 def run_bench(wanted: Wanted, out: Path | None, as_json: bool) -> None:

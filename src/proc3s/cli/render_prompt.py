@@ -59,6 +59,10 @@ def render_prompt(
     }
     registry = open_registry(plugin or [])
     if check is not None:
+        if diff or from_ or round_ or format_ is not Format.text:
+            raise UsageError(
+                "--check compares whole renderings: it takes no --diff, --from, --round or --format"
+            )
         raise typer.Exit(approval.check(registry, check, task, update, given))
     if update:
         raise UsageError("--update goes with --check")

@@ -2,7 +2,7 @@
 
 import functools
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -46,6 +46,7 @@ from proc3s.runs import RunFolder, events_of, new_folder, options_of, versions
 from proc3s.specfile import validate
 from proc3s.summary import Summary, summarize
 from proc3s.textfiles import read_text
+from proc3s.unused import unused, unused_budget
 
 _OPTION_LISTS = ("domain_options", "method_options", "solver_options", "llm_options", "limits")
 _MAY_CHANGE = {"llm", "llm_options", "llm_jobs", "jobs", "executor", "record", "budget", "limits"}
@@ -134,6 +135,8 @@ def replay_run(run: Path, changes: dict[str, Any], out: Path | None, as_json: bo
 
     def job() -> Job:
         options = {**options_of(run), **_plain(changes)}
+        if changes.get("executor") not in (None, options_of(run)["executor"]):
+            options["jobs"] = 1  # those of the run were another executor's
         return Job(validate(RunOptions, options, str(run)), out, _program_of(run))
 
     run_task(job, as_json)
@@ -202,6 +205,7 @@ class Session:
         self._problem = make_problem(self._registry, self._options, goal_needed=job.given is None)
         self._setup = make_setup(self._registry, self._options, self._problem)
         check_parts(self._setup.problem)
+        _tell(unused(self._options, self._setup))
         self._past = job.past or Past()
         self._ledger = self._past.ledger
         self._recorded = {(a.round, a.candidate): a.completion for a in self._past.answers}
@@ -270,7 +274,9 @@ class Session:
         question.prompter.rehearse(self._problem)
         llm = patient(chosen, options.budget, self._past.ledger, self._charged, self._call_failed)
         llm.prepare()
-        if llm.live and not self._past.rounds:
+        if not llm.live:
+            _tell(unused_budget(options.budget, chosen.name))
+        elif not self._past.rounds:
             self._most = in_words(bound_of(question, price_of(chosen)), options.budget)
         if options.record is not None:
             llm = Recorder(llm, options.record, self._past.id)
@@ -308,6 +314,11 @@ class Session:
             for one in heard:
                 self._console.update(one)
                 self._registry.plugins.on_event(one)
+
+
+def _tell(sentences: Iterable[str]) -> None:
+    for sentence in sentences:
+        typer.echo(f"proc3s: {sentence}", err=True)
 
 
 def _exit_code(outcome: Outcome, summary: Summary, resumable: bool) -> int:

@@ -1,0 +1,69 @@
+"""No option is ignored without a word: it is refused, or it is said that it changes nothing."""
+
+import pytest
+
+REFUSED = [
+    (["run", "drawing/star", "--goal", ""], "--goal is empty"),
+    (["run", "drawing/star", "--goal", "  "], "--goal is empty"),
+    (["render-prompt", "drawing/star", "--goal", ""], "--goal is empty"),
+    (["run", "drawing/star", "--executor", "serial", "--jobs", 4], "serial takes at most --jobs 1, not 4"),
+    (["run", "drawing/star", "-S", "x=1", "--solver", "rejection"], "unknown key 'x'"),
+    (["run", "drawing/star", "-D", "count=3", "-D", "count=4"], "'count' is given several times"),
+    (["run", "drawing/star", "--feedback", 1, "-M", "rounds=2"], "--feedback and -M rounds"),
+    (["render-prompt", "drawing", "--check", ".", "--round", 1], "--check compares whole renderings"),
+    (["bench", "smoke", "--solvers", "cma"], "--solvers changes nothing of `bench smoke`"),
+    (["bench", "smoke", "--executor", "processes"], "--executor changes nothing"),
+    (["bench", "smoke", "--throughput", 1], "--throughput changes nothing"),
+    (["bench", "smoke", "--robust", 2], "--robust changes nothing"),
+    (["bench", "smoke", "--times", 10], "--times changes nothing"),
+    (["bench", "smoke", "--methods", ""], "--methods is empty"),
+    (["bench", "smoke", "--tasks", ","], "--tasks is empty"),
+    (["bench", "smoke", "--resume", "a", "--out", "b"], "--out changes nothing"),
+    (["bench", "ccsp", "--methods", "cap"], "--methods changes nothing of `bench ccsp`"),
+    (["bench", "ccsp", "--llm", "replay"], "--llm changes nothing"),
+    (["bench", "ccsp", "--resume", "a"], "--resume changes nothing"),
+    (["bench", "ccsp", "--limit", "round=2"], "--limit changes nothing"),
+    (["bench", "ccsp", "--robust", 0], "--robust changes nothing"),
+    (["bench", "execution", "--solvers", "cma"], "--solvers changes nothing of `bench execution`"),
+    (["bench", "execution", "--jobs", 2], "--jobs changes nothing"),
+    (["bench", "execution", "--max-cost", 2], "--max-cost changes nothing"),
+]
+CAP = ["run", "drawing/star", "--method", "cap"]
+STAR = ["run", "drawing/star"]
+SAID = [
+    ([*CAP, "--solver", "cma"], "cap draws no samples, so --solver changes nothing"),
+    (
+        [*CAP, "--samples", 9, "--no-screens"],
+        "cap draws no samples, so --samples, --no-screens change nothing",
+    ),
+    ([*STAR, "--audit", 5, "--no-screens"], "--audit changes nothing"),
+    ([*STAR, "--goal", "A house.", "--llm", "STUB", "--check-goal"], "nobody judges this instruction"),
+    ([*STAR, "--llm-jobs", 3], "--llm-jobs changes nothing"),
+    ([*STAR, "--max-calls", 3], "--max-calls changes nothing: asking replay costs nothing"),
+]
+
+
+@pytest.mark.parametrize(("args", "words"), REFUSED, ids=[" ".join(map(str, a)) for a, _ in REFUSED])
+def test_options_that_make_no_sense_are_refused(cli, args, words):
+    result = cli(*args)
+    assert (result.code, words in result.stderr) == (2, True), result.stderr
+
+
+@pytest.mark.parametrize(("args", "words"), SAID, ids=[" ".join(map(str, a)) for a, _ in SAID])
+def test_options_without_effect_are_named(cli, stub, answers, args, words):
+    model = stub(answers.star)
+    result = cli(*(model if word == "STUB" else word for word in args))
+    assert (result.code, words in result.stderr) == (0, True), result.stderr
+
+
+def test_options_that_count_are_not_named(cli):
+    said = cli(
+        "run", "drawing/star", "--solver", "cma", "--samples", 900, "--audit", 3, "--check-goal"
+    ).stderr
+    assert "changes nothing" not in said
+
+
+def test_a_run_of_several_processes_is_replayed_in_one(cli):
+    assert cli("run", "drawing/star", "--jobs", 2, "--out", "two").code == 0
+    again = cli("replay", "two", "--executor", "serial", "--json")
+    assert (again.code, again.json["solved"]) == (0, True), again.stderr
