@@ -13,7 +13,7 @@ from typing import Any
 import pluggy
 
 from proc3s import hookspecs
-from proc3s.errors import Proc3sError, SpecError, UsageError, blame, did_you_mean
+from proc3s.errors import Issue, Proc3sError, SpecError, UsageError, blame, did_you_mean
 from proc3s.specfile import load_domain
 from proc3s.specs import DomainSpec, Spec
 
@@ -43,9 +43,9 @@ class PluginManager:
         self._manager = pluggy.PluginManager(GROUP)
         self._manager.add_hookspecs(hookspecs)
         self._explicit = {str(path) for path in files}
-        self._registered: dict[str, list[tuple[str, Spec]]] = {}
+        self._registered: dict[str, list[tuple[str, Spec]]] | None = None
         self.statuses: dict[str, PluginStatus] = {}
-        for entry_point in importlib.metadata.entry_points(group=GROUP):
+        for entry_point in sorted(importlib.metadata.entry_points(group=GROUP), key=_order):
             dist = entry_point.dist
             source, version = (dist.name, dist.version) if dist else ("unknown", None)
             self._load(PluginStatus(entry_point.name, source, version), entry_point.load)
@@ -100,25 +100,55 @@ class PluginManager:
         return [status for status in self.statuses.values() if status.error is not None]
 
     def specs(self, kind: str) -> list[tuple[str, Spec]]:
-        """(plugin name, spec) of everything that `register_<kind>` brings; each plugin is asked once."""
-        if kind not in self._registered:
-            self._registered[kind] = [
-                item for name in list(self.statuses) for item in self._ask(name, f"register_{kind}")
-            ]
-        return self._registered[kind]
+        """(plugin name, spec) of everything that `register_<kind>` brings.
 
-    def _ask(self, name: str, hook: str) -> list[tuple[str, Spec]]:
+        Each plugin is asked once for all kinds. One that raises, or brings what another has brought before
+        it, is refused with all that it brings.
+        """
+        if self._registered is None:
+            self._registered = self._ask_all()
+        return self._registered.get(kind, [])
+
+    def _ask_all(self) -> dict[str, list[tuple[str, Spec]]]:
+        registered: dict[str, list[tuple[str, Spec]]] = {}
+        taken: dict[tuple[str, str], str] = {}
+        for name in list(self.statuses):
+            try:
+                found = self._ask(name)
+                mine = self._names(name, found, taken)
+            except Proc3sError as error:
+                self._refuse(self.statuses[name], error)
+                continue
+            taken |= mine
+            for kind, spec in found:
+                registered.setdefault(kind, []).append((name, spec))
+        return registered
+
+    def _ask(self, name: str) -> list[tuple[str, Spec]]:
+        """(kind of the hook, spec) of all that a plugin brings. Raises Proc3sError."""
         found: list[tuple[str, Spec]] = []
-        register = getattr(self._manager.get_plugin(name), hook, None)
-        if register is None or not hasattr(register, "proc3s_impl"):
-            return []
-        try:
-            with blame(f"plugin {name}"):
-                register(lambda spec: found.append((name, _checked(spec, hook))))
-        except Proc3sError as error:
-            self._refuse(self.statuses[name], error)
-            return []
+        plugin = self._manager.get_plugin(name)
+        for hook in (name for name in vars(hookspecs) if name.startswith("register_")):
+            register, kind = getattr(plugin, hook, None), hook.removeprefix("register_")
+            if register is not None and hasattr(register, "proc3s_impl"):
+                add = partial(_add, found, kind)
+                with blame(f"plugin {name}"):
+                    register(add)
         return found
+
+    def _names(
+        self, plugin: str, found: Sequence[tuple[str, Spec]], taken: Mapping[tuple[str, str], str]
+    ) -> dict[tuple[str, str], str]:
+        """The names that a plugin takes, by kind. Raises SpecError for one that is taken."""
+        mine: dict[tuple[str, str], str] = {}
+        for _, spec in found:
+            key = spec.kind, str(getattr(spec, "name"))  # noqa: B009 - every registered kind has a name
+            if first := {**taken, **mine}.get(key):
+                both = " and ".join(f"{n} ({self.statuses[n].source})" for n in (first, plugin))
+                message = f"{key[1]!r} is registered by both {both}; the first one counts"
+                raise SpecError([Issue(f"plugin {plugin}", key[0], message)])
+            mine[key] = plugin
+        return mine
 
     def resolve_llm(self, model: str) -> Spec | None:
         """The spec of the backend that a plugin offers for a model name."""
@@ -162,6 +192,16 @@ class DomainFile:
     def register_domains(self, register: Callable[[DomainSpec], None]) -> None:
         """The domain that the file describes."""
         register(load_domain(self._path))
+
+
+def _order(entry_point: importlib.metadata.EntryPoint) -> tuple[bool, str]:
+    """Our own plugins first, then by the name of their distribution, however they were installed."""
+    name = entry_point.dist.name if entry_point.dist else ""
+    return name != GROUP, name
+
+
+def _add(found: list[tuple[str, Spec]], kind: str, spec: Spec) -> None:
+    found.append((kind, _checked(spec, f"register_{kind}")))
 
 
 def _checked(spec: Any, hook: str) -> Spec:

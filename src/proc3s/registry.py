@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TypeVar, cast
+from typing import TypeVar
 
 from proc3s import specs
 from proc3s.domain import Domain
@@ -40,17 +40,10 @@ class Registry:
         self.plugins = plugins
 
     def all(self, cls: type[S]) -> dict[str, S]:
-        """Every spec of a kind by name. Raises SpecError when two plugins bring the same name."""
-        found: dict[str, tuple[str, Spec]] = {}
-        for plugin, spec in self.plugins.specs(_TOGETHER.get(cls, cls.kind)):
-            if not isinstance(spec, cls):
-                continue
-            name = str(getattr(spec, "name"))  # noqa: B009 - every registered kind has a name
-            if name in found:
-                message = f"{name!r} is registered by both {found[name][0]} and {plugin}"
-                raise SpecError([Issue(f"plugin {plugin}", cls.kind, message)])
-            found[name] = (plugin, spec)
-        return {name: cast(S, spec) for name, (_, spec) in found.items()}
+        """Every spec of a kind by name."""
+        brought = self.plugins.specs(_TOGETHER.get(cls, cls.kind))
+        # every registered kind has a name
+        return {str(getattr(spec, "name")): spec for _, spec in brought if isinstance(spec, cls)}  # noqa: B009
 
     def get(self, cls: type[S], name: str) -> S:
         """The spec of that name. Raises UsageError with the names that exist."""

@@ -8,6 +8,7 @@ from pathlib import Path
 from rich.console import Console
 from rich.markup import escape
 
+from proc3s.cli.failures import warn_of_failures
 from proc3s.cli.streams import print_document
 from proc3s.conformance.checks import Check, CheckFinding, examine
 from proc3s.conformance.subject import Subject
@@ -23,6 +24,7 @@ def examine_domain(wanted: str, seconds: float, plugins: Sequence[Path], as_json
     """Print the report; returns the exit code. Raises UsageError for a domain that is not there."""
     registry, name = _found(wanted, plugins)
     subject = Subject(registry, name, seconds)
+    warn_of_failures(registry)
     out = Console(highlight=False, quiet=as_json, soft_wrap=True)
     found: list[CheckFinding] = []
     for check, findings, took in examine(subject):

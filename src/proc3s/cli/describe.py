@@ -5,12 +5,12 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-import typer
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
 from proc3s.asking import CallOptions
+from proc3s.cli.failures import warn_of_failures
 from proc3s.cli.streams import json_of, print_document
 from proc3s.domain import Domain
 from proc3s.errors import UsageError, did_you_mean
@@ -27,6 +27,7 @@ def print_list(kind: str | None, plugins: Sequence[Path], as_json: bool) -> None
         raise UsageError(f"there is no kind {kind!r}{did_you_mean(kind, kinds)}")
     chosen = [k for k in kinds if kind is None or k.rstrip("s") == kind.rstrip("s")]
     rows = {k: dict(_rows(registry, k)) for k in chosen}
+    warn_of_failures(registry)
     if as_json:
         print_document(json.dumps(rows, indent=2, ensure_ascii=False))
         return
@@ -38,12 +39,6 @@ def print_list(kind: str | None, plugins: Sequence[Path], as_json: bool) -> None
                 table.add_row("  " + escape(entry), escape(summary))
             out.print(f"[bold]{name}[/]")
             out.print(table)
-    _warn_of_failures(registry)
-
-
-def _warn_of_failures(registry: Registry) -> None:
-    for status in registry.plugins.failures:
-        typer.echo(f"proc3s: plugin {status.name} ({status.source}) did not load: {status.error}", err=True)
 
 
 def _rows(registry: Registry, kind: str) -> Iterator[tuple[str, str]]:
@@ -60,6 +55,7 @@ def print_spec(name: str, plugins: Sequence[Path], as_json: bool) -> None:
     """The specs of a name; with `as_json` the first, of kinds that share it. Raises UsageError if none is."""
     registry = open_registry(plugins)
     specs = _find(registry, name)
+    warn_of_failures(registry)
     if as_json:
         print_document(json_of(specs[0]))
         return

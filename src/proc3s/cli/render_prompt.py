@@ -44,6 +44,7 @@ def render_prompt(
 ) -> None:
     """Print exactly what the LLM would be asked. Calls nobody."""
     from proc3s.cli import approval, renderings
+    from proc3s.cli.failures import warn_of_failures
     from proc3s.errors import UsageError
     from proc3s.registry import open_registry
 
@@ -71,3 +72,4 @@ def render_prompt(
     options = renderings.options_of(task, given, from_)
     messages = renderings.render(registry, options, round_, from_)
     renderings.show(messages, format_.value, diff, round_)
+    warn_of_failures(registry)

@@ -12,6 +12,7 @@ import typer
 from proc3s.backends import find_llm, patient, price_of
 from proc3s.budget import Ledger, Spent, spent_on
 from proc3s.cli.console import Console
+from proc3s.cli.failures import warn_of_failures
 from proc3s.cli.streams import json_of, print_document
 from proc3s.config import choose_llm
 from proc3s.conversation import Propose, Question, ask_llm, given_program
@@ -234,8 +235,7 @@ class Session:
             self._folder.close()
             setup.executor.close()
         self._console.result(summary)
-        for status in self._registry.plugins.failures:
-            typer.echo(f"proc3s: plugin {status.name} ({status.source}) failed: {status.error}", err=True)
+        warn_of_failures(self._registry)
         for text in self._unwritten:
             if text != str(outcome.error):
                 typer.echo(f"proc3s: {text}", err=True)
