@@ -145,8 +145,8 @@ class Patient(LLM):
     def _told(self, completion: Completion) -> Completion:
         """An answer that was there already, with a note on the options that did nothing for it."""
         idle = self._options.model_fields_set
-        if completion.source == "recorded":
-            idle = idle - Sampling.model_fields.keys()  # whoever recorded it can tell what was other then
+        if completion.sampling is not None:
+            idle = idle - Sampling.model_fields.keys()  # a replay tells what was other then
         if not idle:
             return completion
         note = f"nothing was asked, so -L {', '.join(sorted(idle))} changed nothing"

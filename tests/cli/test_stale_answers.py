@@ -58,8 +58,8 @@ def test_a_fresh_answer_is_not_marked(cli, old):
     assert "stale" not in done.stdout + done.stderr
 
 
-@pytest.mark.parametrize("llm", ["replay", "stub:first.json"])
-def test_call_options_do_nothing_for_answers_that_no_model_gave_and_that_is_said(cli, old, llm):
+@pytest.mark.parametrize("llm", ["replay", "stub:first.json", "replay:new.jsonl"])
+def test_call_options_do_nothing_for_answers_of_which_nobody_knows_how_they_were_drawn(cli, old, llm):
     done = cli("run", "drawing/star", "--llm", llm, "-L", "temperature=1.5", "-L", "max_tokens=7")
     assert done.code == 0
     assert "nothing was asked, so -L max_tokens, temperature changed nothing" in done.stderr
