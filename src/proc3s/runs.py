@@ -188,8 +188,7 @@ def options_of(run: Path) -> Mapping[str, Any]:
     begun = [e for e in read_events(run) if e["event"] in ("run_started", "run_resumed")]
     if not begun:
         raise UsageError(f"{run} was cut off before it began")
-    options: Mapping[str, Any] = begun[-1]["options"]
-    return options
+    return _with_options(run, begun[-1])["options"]  # type: ignore[no-any-return]
 
 
 def started(run: Path) -> Mapping[str, Any]:
@@ -197,4 +196,10 @@ def started(run: Path) -> Mapping[str, Any]:
     first = events_of(run, "run_started")
     if not first:
         raise UsageError(f"{run} was cut off before it began")
-    return first[0]
+    return _with_options(run, first[0])
+
+
+def _with_options(run: Path, event: Mapping[str, Any]) -> Mapping[str, Any]:
+    if not isinstance(event.get("options"), Mapping):
+        raise UsageError(f"{run / LOG}: no log of a run: {event['event']} has no options")
+    return event

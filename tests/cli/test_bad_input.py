@@ -248,3 +248,15 @@ def test_a_skill_of_a_plugin_that_breaks_is_named(cli, here, stub):
     assert "hop" in result.json["error"]
     assert "the motor is broken" in result.json["error"]
     assert json.loads((here / result.json["run_dir"] / "summary.json").read_text())["error"]
+
+
+@pytest.mark.parametrize(
+    "log", ['{"event": "run_started"}\n', "[" * 100_000 + "\n", "\0\n", '{"event": 1}\n']
+)
+@pytest.mark.parametrize("args", [["replay", "run"], ["run", "drawing/star", "--resume", "run"]])
+def test_a_log_that_is_none_is_a_message(cli, here, args, log):
+    (here / "run").mkdir()
+    (here / "run/events.jsonl").write_text(log)
+    result = cli(*args)
+    assert result.code == 2
+    assert "run" in said(result)
