@@ -67,3 +67,17 @@ def test_a_run_of_several_processes_is_replayed_in_one(cli):
     assert cli("run", "drawing/star", "--jobs", 2, "--out", "two").code == 0
     again = cli("replay", "two", "--executor", "serial", "--json")
     assert (again.code, again.json["solved"]) == (0, True), again.stderr
+
+
+def test_one_is_one_and_what_says_nothing_is_not_said(cli, stub):
+    """Counts agree with their nouns, and a method that draws no samples has no line about them."""
+    one = "```python\ndef gen_plan(initial, a):\n    return [Action('draw_line', [a, 1, a, -1])]\n\n"
+    one += "def gen_domain(initial):\n    return {'a': ContinuousSampler(1, 9)}\n```"
+    failed = cli("run", "drawing/star", "--llm", stub(one), "--samples", 1, "--feedback", 0)
+    assert "a program with 1 open parameter a" in failed.stderr
+    assert "samples  1 in 1 round" in failed.stdout
+    cap = cli("run", "drawing/star", "--method", "cap")
+    assert "a program without open parameters" in cap.stderr
+    assert "no sample was drawn" in cap.stdout
+    assert "samples  0" not in cap.stdout
+    assert "rejected 0" not in cap.stdout

@@ -13,6 +13,7 @@ from proc3s.registry import Registry
 from proc3s.runs import markdown
 from proc3s.specs import DomainSpec, MethodSpec
 from proc3s.textfiles import read_text
+from proc3s.wording import count
 
 
 def check(registry: Registry, folder: Path, within: str | None, update: bool, given: dict[str, Any]) -> int:
@@ -29,7 +30,7 @@ def check(registry: Registry, folder: Path, within: str | None, update: bool, gi
     except OSError as error:
         raise UsageError(f"{error.filename}: {error.strerror}") from error
     changed = len(stale) + len(orphans)
-    typer.echo(f"{len(rendered)} renderings, {_verdict(changed, update)}", err=True)
+    typer.echo(f"{count(len(rendered), 'rendering')}, {_verdict(changed, update)}", err=True)
     return 2 if changed and not update else 0
 
 

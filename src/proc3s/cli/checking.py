@@ -16,6 +16,7 @@ from proc3s.errors import UsageError
 from proc3s.registry import Registry, open_registry
 from proc3s.specfile import load_domain
 from proc3s.specs import DomainSpec
+from proc3s.wording import count
 
 FILE = "domain.yaml"
 
@@ -39,7 +40,7 @@ def examine_domain(wanted: str, seconds: float, plugins: Sequence[Path], as_json
     else:
         for fact in facts:
             out.print(f"fact   {escape(fact)}")
-        out.print(f"{name}: {errors} errors, {len(found) - errors} notes")
+        out.print(f"{name}: {count(errors, 'error')}, {count(len(found) - errors, 'note')}")
     return 2 if errors else 0
 
 

@@ -26,6 +26,7 @@ from proc3s.llms import Completion
 from proc3s.options import RunOptions
 from proc3s.shares import portion
 from proc3s.summary import Summary
+from proc3s.wording import count
 
 _ORIGIN = {
     "authored": "an authored answer (written by hand, not by a model)",
@@ -120,9 +121,10 @@ class Console:
     def _loaded(self, event: SketchLoaded) -> None:
         listed = ", ".join(event.parameters)
         shown = listed if len(listed) <= 100 else f"{listed[:100]}…"
-        self.say(
-            f"round {event.round}: a program with {len(event.parameters)} open parameters {shown}".rstrip()
+        number = (
+            f"with {count(len(event.parameters), 'open parameter')}" if listed else "without open parameters"
         )
+        self.say(f"round {event.round}: a program {number} {shown}".rstrip())
         self._why.clear()
         self._progress.reset(
             self._task, total=self._samples, visible=True, rate="", reached=0, why="", start=True
@@ -141,7 +143,7 @@ class Console:
 
     def _diagnosis(self, round_: int, diagnosis: Diagnosis) -> None:
         self._progress.update(self._task, visible=False)
-        self.say(f"round {round_}: no plan was accepted ({diagnosis.samples} samples)")
+        self.say(f"round {round_}: no plan was accepted ({_samples(diagnosis.samples)})")
         if diagnosis.alike:
             self.say(f"  no more were drawn: all of the first {diagnosis.samples} raised the same exception")
         for failure in (*diagnosis.program_errors, *diagnosis.failures)[:3]:
@@ -155,9 +157,14 @@ class Console:
         out.print(_headline(summary))
         if summary.error is None or summary.solved:
             out.print(escape(f"goal     {_goal(summary)}"))
-        out.print(f"samples  {summary.samples} in {_count(summary.rounds + 1, 'round')}, {_times(summary)}")
+        if summary.samples:
+            rounds = count(summary.rounds + 1, "round")
+            out.print(f"samples  {summary.samples} in {rounds}, {_times(summary)}")
+        elif summary.seconds:
+            out.print(f"time     {_times(summary)}; no sample was drawn")
         for screen, rejected in summary.rejected_by.items():
-            out.print(f"screen   {screen} rejected {rejected}")
+            if rejected:
+                out.print(f"screen   {screen} rejected {rejected}")
         if summary.usage.calls:
             out.print(f"answers  {_spent(summary.usage)}")
         if summary.llm_source == "authored":
@@ -176,7 +183,7 @@ def _spent(spent: Spent) -> str:
     tokens = "unknown" if spent.prompt_tokens is None or spent.completion_tokens is None else None
     tokens = tokens or f"{spent.prompt_tokens:,} + {spent.completion_tokens:,}"
     cost = "unknown" if spent.cost is None else f"${spent.cost:.4f}"
-    return f"{_count(spent.calls, 'call')}, tokens {tokens}, cost {cost}"
+    return f"{count(spent.calls, 'call')}, tokens {tokens}, cost {cost}"
 
 
 def _cost(completion: Completion) -> str:
@@ -193,15 +200,15 @@ def _cost(completion: Completion) -> str:
     return f" ({text})" if text else ""
 
 
-def _count(number: int, what: str) -> str:
-    return f"{number} {what}" if number == 1 else f"{number} {what}s"
+def _samples(number: int) -> str:
+    return count(number, "sample") if number else "no sample was drawn"
 
 
 def _headline(summary: Summary) -> str:
     if summary.error is not None and not summary.solved:
         return f"[bold red]stopped[/]  {summary.task} (seed {summary.seed})"
     if summary.solved:
-        steps = _count(len(summary.plan or []), "step")
+        steps = count(len(summary.plan or []), "step")
         return f"[bold green]solved[/]   {summary.task} (seed {summary.seed}), a plan of {steps}"
     tail = "; a plan that violates constraints was executed" if summary.executed == "fallback" else ""
     return f"[bold red]unsolved[/] {summary.task} (seed {summary.seed}){tail}"
