@@ -10,9 +10,8 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 
 import pytest
-from typer.testing import CliRunner
-
 from provider import running
+from typer.testing import CliRunner
 
 collect_ignore = ["example_plugin"]  # a package of its own, tested where it is installed
 

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import proc3s
-from proc3s.specs import Spec
+from proc3s.specs.base import Spec
 
 _WORDS = {
     "FloatArray": "A numpy array of floats.",

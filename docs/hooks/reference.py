@@ -11,11 +11,14 @@ import typer
 from pydantic import BaseModel
 from words import render
 
-from proc3s import events, hookspecs, specs, summary
-from proc3s.asking import CallOptions
+from proc3s import specs
 from proc3s.cli import app
-from proc3s.options import options_model
-from proc3s.registry import KINDS, Registry, open_registry
+from proc3s.llm.call_options import CallOptions
+from proc3s.planning import summary
+from proc3s.plugins import hookspecs
+from proc3s.plugins.part_options import options_model
+from proc3s.plugins.registry import KINDS, Registry, open_registry
+from proc3s.runs import events
 
 
 def pages() -> dict[str, str]:

@@ -13,7 +13,8 @@ def pages() -> dict[str, str]:
     """Markdown by its place in the site; nothing where the toolbox is not installed."""
     if find_spec("pybullet") is None:
         return {}
-    from proc3s_tabletop import body_specs, judges, scenes
+    from proc3s_tabletop.catalogue import body_specs
+    from proc3s_tabletop.tasks import judges, scenes
 
     bodies = models.tables(*body_specs.SHAPES.values())
     entries = models.tables(scenes.Entry)

@@ -9,7 +9,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from proc3s.state import FloatArray
+from proc3s.domain.values import FloatArray
 
 Edge: TypeAlias = tuple[int, int]
 

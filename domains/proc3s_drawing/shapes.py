@@ -5,8 +5,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from proc3s.state import FloatArray, Plan
-from proc3s.world import Score
+from proc3s.domain.values import FloatArray, Plan
+from proc3s.domain.world import Score
 from proc3s_drawing import geometry as geo
 from proc3s_drawing.geometry import StrokeGraph, angle_between
 from proc3s_drawing.judges import require, verdict, within

@@ -40,7 +40,7 @@ _SAFE_PATH = "PYTHONSAFEPATH"
 
 
 @dataclass(frozen=True)
-class Answer:
+class WorkerReply:
     """What a worker made of a chunk: trials up to the error that stopped it, if one did."""
 
     trials: list[Trial]
@@ -66,7 +66,7 @@ class Processes:
         """The trial of every plan, in order; plans are taken a few chunks ahead of the trial taken."""
         plans, key = iter(plans), pickle.dumps(problem)
         self._plans_per_chunk = 1
-        running: deque[tuple[Sequence[Plan], Future[Answer]]] = deque()
+        running: deque[tuple[Sequence[Plan], Future[WorkerReply]]] = deque()
         try:
             while True:
                 while len(running) < _AHEAD * self._jobs and (chunk := self._next_chunk(plans)):
@@ -110,19 +110,19 @@ class Processes:
     def _next_chunk(self, plans: Iterator[Plan]) -> list[Plan]:
         return list(itertools.islice(plans, self._plans_per_chunk))
 
-    def _learn(self, answer: Answer) -> None:
+    def _learn(self, answer: WorkerReply) -> None:
         """Chunks grow towards a fixed time; their size decides nothing but how long things take."""
         self._restarts = 0
         if answer.trials:
             fitting = int(_CHUNK_SECONDS * len(answer.trials) / max(answer.seconds, 1e-6))
             self._plans_per_chunk = max(1, min(fitting, 2 * self._plans_per_chunk, _MOST_PLANS))
 
-    def _submit(self, key: bytes, chunk: Sequence[Plan]) -> "Future[Answer]":
+    def _submit(self, key: bytes, chunk: Sequence[Plan]) -> "Future[WorkerReply]":
         try:
             with _for_children():  # this may start processes
                 return self._workers().submit(_evaluate, key, chunk)
         except (BrokenProcessPool, OSError) as error:  # OSError: the pool is about to notice a dead worker
-            broken: Future[Answer] = Future()
+            broken: Future[WorkerReply] = Future()
             broken.set_exception(BrokenProcessPool(str(error)))
             return broken
 
@@ -193,7 +193,7 @@ def _begin(files: tuple[Path, ...], told: Path) -> None:
     If it takes too long, `told` gets its last words.
     """
     from proc3s import import_loose_file
-    from proc3s.watch import watch
+    from proc3s.search.watch import watch
 
     watch().told = told
 
@@ -212,7 +212,7 @@ def _end_with_parent() -> None:
     os._exit(1)
 
 
-def _evaluate(key: bytes, chunk: Sequence[Plan]) -> Answer:
+def _evaluate(key: bytes, chunk: Sequence[Plan]) -> WorkerReply:
     """The trials of a chunk; what came before an error is kept, as if plans were carried out one by one."""
     begun = time.perf_counter()
     trials: list[Trial] = []
@@ -223,7 +223,7 @@ def _evaluate(key: bytes, chunk: Sequence[Plan]) -> Answer:
             trials.append(rollouts(plan))
     except Exception as raised:
         error = raised
-    return Answer(trials, error, time.perf_counter() - begun)
+    return WorkerReply(trials, error, time.perf_counter() - begun)
 
 
 class _Worker:

@@ -9,13 +9,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from proc3s.errors import Fault
+from proc3s.llm.errors import LLMFault
 
 _LONGEST = 2000
 _HTML = re.compile(r"<(!doctype|html|head|body)\b", re.IGNORECASE)
 _RETRY = re.compile(r'retry(?:Delay"?: ?"?| in )(\d+(?:\.\d+)?) ?s')
 
-_STATUS: Mapping[int, Fault] = {
+_STATUS: Mapping[int, LLMFault] = {
     401: "auth",
     402: "quota",
     403: "auth",
@@ -47,14 +47,14 @@ _MODEL = r"""
     model_not_found | (invalid|unknown|no.such).model | not.a.valid.model | access.to.model
     | model\b.{0,80}(not.found|not.exist|not.available|no.longer|decommissioned)
 """
-_BY_WORDS: Mapping[Fault, str] = {
+_BY_WORDS: Mapping[LLMFault, str] = {
     "quota": _QUOTA,
     "context": _CONTEXT,
     "filtered": _FILTERED,
     "auth": _KEY,
     "unknown_model": _MODEL,
 }
-_TELLING: Mapping[int, frozenset[Fault]] = {
+_TELLING: Mapping[int, frozenset[LLMFault]] = {
     401: frozenset({"quota"}),
     402: frozenset(),
     403: frozenset({"quota", "filtered", "unknown_model"}),
@@ -69,7 +69,7 @@ _TELLING: Mapping[int, frozenset[Fault]] = {
 class Failure:
     """What is known of a failed call; `words` are those of whoever refused, one line of plain text."""
 
-    fault: Fault
+    fault: LLMFault
     words: str = ""
     status: int | None = None
     retry_after: float | None = None
@@ -87,7 +87,7 @@ def refused(status: int, body: str, headers: Mapping[str, str]) -> Failure:
     return Failure(_fault(status, body, delay), words(body), status, delay, is_html(body), _about(body))
 
 
-def _fault(status: int, body: str, delay: float | None) -> Fault:
+def _fault(status: int, body: str, delay: float | None) -> LLMFault:
     telling = "" if is_html(body) else " ".join(_message(body))
     if status == 429 and delay is not None and "RESOURCE_EXHAUSTED" in telling and "PerDay" not in telling:
         return "rate_limit"  # Gemini speaks of quota and billing where a minute's wait is meant
@@ -99,7 +99,7 @@ def _fault(status: int, body: str, delay: float | None) -> Fault:
     return _STATUS.get(status, "other")
 
 
-def fault_by_words(text: str) -> Fault | None:
+def fault_by_words(text: str) -> LLMFault | None:
     """The kind of failure that a message speaks of."""
     flags = re.IGNORECASE | re.VERBOSE | re.DOTALL
     return next((fault for fault, pattern in _BY_WORDS.items() if re.search(pattern, text, flags)), None)

@@ -7,9 +7,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from proc3s import Completion, LLMError, Message, Request, Usage, digest, runs
+from proc3s import Completion, LLMError, Message, Request, Usage, digest
 from proc3s.errors import did_you_mean
-from proc3s.recordings import Recording
+from proc3s.llm.recorder import Recording
+from proc3s.runs import folder as runs
 from proc3s_replay.differences import difference
 
 _NUMBER = re.compile(r"(?<![\w.])[-+]?(\d+(\.\d*)?|\.\d+)([eE][-+]?\d+)?")

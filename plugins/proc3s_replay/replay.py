@@ -6,7 +6,7 @@ from typing import Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 from proc3s import LLM, Completion, LLMError, Request
-from proc3s.recordings import read_recordings
+from proc3s.runs.recordings import read_recordings
 from proc3s_replay import answers
 from proc3s_replay.lookup import Lookup
 

@@ -7,7 +7,7 @@ constraints by `use: [pick, place, kinematic, collision, grasp, placement]`.
 from collections.abc import Callable
 
 from proc3s import ConstraintSpec, SamplerSpec, SkillSpec, hookimpl
-from proc3s.specs import ParamSpec
+from proc3s.specs.domain import ParamSpec
 
 NOISE = 1.0
 """Standard deviation of the Gaussian methods at full scale, m (the paper)."""
@@ -19,7 +19,7 @@ def register_skills(register: Callable[[SkillSpec], None]) -> None:
     register(
         SkillSpec(
             name="pick",
-            target="proc3s_tabletop.world:pick",
+            target="proc3s_tabletop.skills:pick",
             summary="Moves the open hand straight down to (x, y, z), closes it and lifts what is between the "
             "fingers.",
             params=_point("height of the point between the fingertips: the centre of the object"),
@@ -28,7 +28,7 @@ def register_skills(register: Callable[[SkillSpec], None]) -> None:
     register(
         SkillSpec(
             name="place",
-            target="proc3s_tabletop.world:place",
+            target="proc3s_tabletop.skills:place",
             summary="Moves the object in the hand over (x, y), down until it meets what is below, and lets "
             "it go.",
             params=_point("height at which it should meet its support, see above"),
@@ -47,7 +47,7 @@ def register_samplers(register: Callable[[SamplerSpec], None]) -> None:
     register(
         SamplerSpec(
             name="GraspSampler",
-            target="proc3s_tabletop.grasp_sampler:GraspSampler",
+            target="proc3s_tabletop.tasks.grasp_sampler:GraspSampler",
             summary="A grasp from above in the frame of an object, as an ArrangePose: at most 0.02 m from "
             "its centre along x and along y, any yaw.",
             params={},

@@ -9,14 +9,13 @@ from collections.abc import Iterator, Mapping
 from typing import Any, TypeAlias
 
 from proc3s import Margin, Transition
-from proc3s_tabletop.recipe import LEVER, Recipe
-from proc3s_tabletop.telemetry import Displacement, Telemetry
-from proc3s_tabletop.things import TABLE
-from proc3s_tabletop.widths import TOO_WIDE
+from proc3s_tabletop.robot.settings import LEVER, ReferenceSettings
+from proc3s_tabletop.robot.widths import TOO_WIDE
+from proc3s_tabletop.telemetry import TABLE, Displacement, Telemetry
 
 Step: TypeAlias = Transition[Telemetry]
 
-RECIPE = Recipe()
+RECIPE = ReferenceSettings()
 PAD_WIDTH = 0.018
 """What the grid of rays between the pads spans, m: turns its share that is met into a distance."""
 UNMEASURED = 1e-3

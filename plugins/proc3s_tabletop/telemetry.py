@@ -5,10 +5,14 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 Vector: TypeAlias = tuple[float, float, float]
+
+
 Quaternion: TypeAlias = tuple[float, float, float, float]
+
 
 Attempted: TypeAlias = Literal["pick", "place"]
 """What an action tried, whatever its skill is called."""
+
 
 Stage: TypeAlias = Literal[
     "hand", "reach", "approach", "grasp", "close", "lift", "carry", "descent", "support", "release"
@@ -138,3 +142,6 @@ def _up(q: Quaternion) -> Vector:
     """The third axis of a rotation."""
     x, y, z, w = q
     return 2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)
+
+
+TABLE = "table"

@@ -8,17 +8,19 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from proc3s import Plan, Pose, State, World
-from proc3s_tabletop import poses
-from proc3s_tabletop.bodies import Body, Mesh
-from proc3s_tabletop.body_specs import bodies_of, body_of
-from proc3s_tabletop.disturbances import OFF, Disturbance
-from proc3s_tabletop.reference import Reference
-from proc3s_tabletop.scene import Snapshot
-from proc3s_tabletop.screening import SCREENS
-from proc3s_tabletop.table import Table
+from proc3s import Plan, State, World
+from proc3s_tabletop.actions.disturbances import OFF, Disturbance
+from proc3s_tabletop.actions.execution import Execution
+from proc3s_tabletop.actions.reference import Reference
+from proc3s_tabletop.actions.table import Table
+from proc3s_tabletop.bullet.scene import Snapshot
+from proc3s_tabletop.catalogue.body_specs import bodies_of, body_of
+from proc3s_tabletop.objects.body import Body
+from proc3s_tabletop.objects.shapes import Mesh
+from proc3s_tabletop.robot import frames as poses
+from proc3s_tabletop.robot.frames import Frame
+from proc3s_tabletop.screens.registered import SCREENS
 from proc3s_tabletop.telemetry import Telemetry
-from proc3s_tabletop.things import Frame
 
 if TYPE_CHECKING:
     from proc3s import Domain
@@ -77,7 +79,7 @@ class TabletopWorld(World[Telemetry]):
 
     def flaws(self, state: State) -> list[str]:
         """Objects beside the table, in it, or in one another."""
-        from proc3s_tabletop.beginning import flaws_of
+        from proc3s_tabletop.actions.beginning import flaws_of
 
         objects: Mapping[str, Any] = state.objects  # type: ignore[attr-defined]
         return flaws_of(objects, *self._placed(objects))
@@ -123,7 +125,7 @@ class TabletopWorld(World[Telemetry]):
 
     def render(self, plan: Plan, path: Path) -> None:
         """Draw the world after a plan, and at `path` with `-step0`, `-step1`, ... where each step led."""
-        from proc3s_tabletop.pictures import draw
+        from proc3s_tabletop.bullet.pictures import draw
 
         colors = {name: getattr(thing, "color", "") for name, thing in self.state.objects.items()}
         draw(self._bodies, colors, self._film, path)
@@ -143,6 +145,14 @@ class TabletopWorld(World[Telemetry]):
             self._table = None
 
 
+class ExecutionWorld(TabletopWorld):
+    """The world in which accepted plans are carried out."""
+
+    def make_table(self, bodies: Mapping[str, Body], frames: Mapping[str, Frame]) -> Table:
+        """A table whose arm is driven."""
+        return Execution(bodies, frames)
+
+
 class ReferenceWorld(TabletopWorld):
     """The world that accepts plans."""
 
@@ -151,25 +161,3 @@ class ReferenceWorld(TabletopWorld):
     def make_table(self, bodies: Mapping[str, Body], frames: Mapping[str, Frame]) -> Table:
         """A table whose arm is kinematic."""
         return Reference(bodies, frames)
-
-
-def pick(world: TabletopWorld, x: float, y: float, z: float) -> Telemetry:
-    """The skill: grasp from above at a point in metres, and lift."""
-    return world.table.pick(x, y, z)
-
-
-def place(world: TabletopWorld, x: float, y: float, z: float) -> Telemetry:
-    """The skill: set down what is held over a point in metres, and let go."""
-    return world.table.place(*world.placed(x, y, z))
-
-
-def pick_object(world: TabletopWorld, o: str, g: Pose) -> Telemetry:
-    """The skill: grasp an object by a pose of the grasp point in its frame, wherever it is now, and lift."""
-    return world.table.pick_object(o, np.array(dataclasses.astuple(g)))
-
-
-def place_object(world: TabletopWorld, o: str, g: Pose, p: Pose) -> Telemetry:
-    """The skill: bring an object that is held by a grasp to a pose of the world, and let go."""
-    x, y, z = world.placed(p.x, p.y, p.z)
-    pose = np.array([x, y, z, p.roll, p.pitch, p.yaw])
-    return world.table.place_object(o, np.array(dataclasses.astuple(g)), pose)

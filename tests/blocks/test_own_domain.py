@@ -9,7 +9,7 @@ summary: A robot arm moves cans and a tray on a table.
 world: {target: "proc3s_tabletop.world:ReferenceWorld", args: {bodies: &bodies {
   can: {shape: cylinder, radius: 0.025, height: 0.06, mass: 0.15},
   tray: {shape: box, size: [0.12, 0.12, 0.01], mass: 0.2}}}}
-execution: {target: "proc3s_tabletop.execution:ExecutionWorld", args: {bodies: *bodies}}
+execution: {target: "proc3s_tabletop.world:ExecutionWorld", args: {bodies: *bodies}}
 state: Belief
 objects: objects
 types:
@@ -17,15 +17,15 @@ types:
     summary: A pose.
     fields: {x: {type: float}, y: {type: float}, z: {type: float},
              roll: {type: float}, pitch: {type: float}, yaw: {type: float}}
-    methods: "proc3s_tabletop.programs:PoseMethods"
+    methods: "proc3s_tabletop.tasks.state_methods:PoseMethods"
   Thing:
     summary: A thing.
     fields: {category: {type: str}, color: {type: str}, pose: {type: Pose}, body: {type: str}}
-    methods: "proc3s_tabletop.programs:ObjectMethods"
+    methods: "proc3s_tabletop.tasks.state_methods:ObjectMethods"
   Belief:
     summary: All things.
     fields: {objects: {type: "dict[Thing]"}}
-    methods: "proc3s_tabletop.programs:BeliefMethods"
+    methods: "proc3s_tabletop.tasks.state_methods:BeliefMethods"
 use: [pick, place, kinematic, collision, grasp, placement]
 skills: {}
 constraints: {}
@@ -34,12 +34,12 @@ tasks:
   serve:
     instruction: Put the can on the tray.
     initial:
-      target: "proc3s_tabletop.scenes:scene"
+      target: "proc3s_tabletop.tasks.scenes:scene"
       args: {bodies: *bodies, objects: [{category: tray, at: [0.0, -0.6]}, {category: can, apart: 0.2}]}
     judge:
-      - target: "proc3s_tabletop.judges:on"
+      - target: "proc3s_tabletop.tasks.judges:on"
         args: {bodies: *bodies, what: {category: can}, below: {category: tray}}
-      - {target: "proc3s_tabletop.judges:upright", args: {bodies: *bodies}}
+      - {target: "proc3s_tabletop.tasks.judges:upright", args: {bodies: *bodies}}
 budget: {paper: 50, release: 50}
 """
 PLUGIN = """

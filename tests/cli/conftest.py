@@ -1,7 +1,6 @@
 """Answers that a language model might give."""
 
 import pytest
-
 from sample_answers import OUTSIDE, STAR
 
 LITERAL = """

@@ -4,12 +4,12 @@ import json
 import shutil
 
 import pytest
+from sample_answers import STAR
 
 from proc3s import answer, load_domain
-from proc3s.sketch import extract_program
+from proc3s.prompts.extract import extract_program
 from proc3s.suites.results import read_figures
 from proc3s.textfiles import read_text
-from sample_answers import STAR
 
 MARK = "\ufeff"
 PROGRAM = extract_program(STAR)
@@ -74,7 +74,7 @@ def test_the_configuration(cli, save):
 
 
 def test_a_domain(save):
-    from proc3s.registry import open_registry
+    from proc3s.plugins.registry import open_registry
 
     own = open_registry().domain("drawing").spec.folder / "domain.yaml"
     path = save("copy/domain.yaml", own.read_text(encoding="utf-8"))
@@ -84,9 +84,10 @@ def test_a_domain(save):
 def test_a_worked_example(save):
     import dataclasses
 
-    from proc3s.options import RunOptions, make_problem
-    from proc3s.prompts import example_turns
-    from proc3s.registry import open_registry
+    from proc3s.planning.options import RunOptions
+    from proc3s.planning.setup import make_problem
+    from proc3s.plugins.registry import open_registry
+    from proc3s.prompts.examples import example_turns
 
     problem = make_problem(open_registry(), RunOptions(task="drawing/star"))
     spec = problem.domain.spec

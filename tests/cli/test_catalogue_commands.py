@@ -138,7 +138,7 @@ def test_schemas_are_schemas(cli, kind):
 def test_the_schema_of_a_domain_knows_the_keys_of_a_domain(cli):
     import yaml
 
-    from proc3s.registry import open_registry
+    from proc3s.plugins.registry import open_registry
 
     schema = cli("schema", "domain").json
     path = open_registry().domain("drawing").spec.folder / "domain.yaml"

@@ -4,7 +4,7 @@ import textwrap
 
 import pytest
 
-from proc3s import hookspecs
+from proc3s.plugins import hookspecs
 
 STAR = ("run", "drawing/star", "--llm", "replay")
 

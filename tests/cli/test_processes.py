@@ -153,7 +153,7 @@ def test_control_c_while_waiting_for_an_answer(background, eventually, here):
 def test_kill_9_while_sampling_leaves_a_folder_that_can_be_read_and_replayed(
     background, eventually, here, stub, cli
 ):
-    from proc3s.runs import read_events
+    from proc3s.runs.reading import read_events
 
     args = (
         "run",

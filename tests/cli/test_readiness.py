@@ -52,7 +52,7 @@ SPEC = """
 spec_version: 1
 name: broken
 summary: Nothing works.
-world: {target: "proc3s.world:World"}
+world: {target: "proc3s.domain.world:World"}
 state: Sheet
 types: {Sheet: {summary: A sheet., fields: {ink: {type: float, default: 1.0}}}}
 skills: {line: {summary: Draws., target: "broken:line", params: {length: {type: float}}}}
@@ -62,7 +62,7 @@ tasks: {any: {instruction: Draw., initial: {target: "broken:scene"}}}
 budget: {paper: 10, release: 10}
 """
 CHANGES = {
-    "world": ("proc3s.world:World", "broken:Canvas", "no simulator here"),
+    "world": ("proc3s.domain.world:World", "broken:Canvas", "no simulator here"),
     "execution": ("samplers:", 'execution: {target: "broken:Canvas"}\nsamplers:', "no simulator here"),
     "screen": (
         "samplers:",

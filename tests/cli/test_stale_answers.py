@@ -4,7 +4,8 @@ import json
 
 import pytest
 
-from proc3s.recordings import Recording, read_recordings
+from proc3s.llm.recorder import Recording
+from proc3s.runs.recordings import read_recordings
 
 STALE = ("--llm", "replay:old.jsonl", "-L", "stale=accept")
 
@@ -12,8 +13,8 @@ STALE = ("--llm", "replay:old.jsonl", "-L", "stale=accept")
 @pytest.fixture
 def old(cli, here, answers):
     """A cassette with an answer to drawing/star, seed 0, of an earlier prompt."""
-    from proc3s.cassettes import Cassette
-    from proc3s.llms import digest
+    from proc3s.llm.cassette import Cassette
+    from proc3s.llm.types import digest
 
     (here / "first.json").write_text(json.dumps([answers.star]))
     done = cli("run", "drawing/star", "--llm", "stub:first.json", "--record", "new.jsonl", "--out", "first")

@@ -7,8 +7,8 @@ import sys
 
 import pytest
 
-from proc3s.recordings import read_recordings
-from proc3s.runs import read_events
+from proc3s.runs.reading import read_events
+from proc3s.runs.recordings import read_recordings
 
 RUN = ("run", "drawing/star", "--out", "run")
 PLUGIN = """

@@ -11,8 +11,8 @@ import yaml
 from pydantic import TypeAdapter
 
 from proc3s.cli import app
-from proc3s.specs import ConstraintSpec, DomainSpec, SkillSpec
-from proc3s_tabletop.body_specs import SHAPES
+from proc3s.specs.domain import ConstraintSpec, DomainSpec, SkillSpec
+from proc3s_tabletop.catalogue.body_specs import SHAPES
 
 ROOT = Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]

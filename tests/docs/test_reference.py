@@ -10,14 +10,17 @@ import typer
 import yaml
 
 import proc3s
-from proc3s import events, hookspecs, specs, summary
-from proc3s.asking import CallOptions
+from proc3s import specs
 from proc3s.cli import app
-from proc3s.options import options_model
-from proc3s.registry import KINDS, open_registry
-from proc3s_tabletop.body_specs import SHAPES
-from proc3s_tabletop.scenes import Entry
-from proc3s_tabletop.selection import Selector
+from proc3s.llm.call_options import CallOptions
+from proc3s.planning import summary
+from proc3s.plugins import hookspecs
+from proc3s.plugins.part_options import options_model
+from proc3s.plugins.registry import KINDS, open_registry
+from proc3s.runs import events
+from proc3s_tabletop.catalogue.body_specs import SHAPES
+from proc3s_tabletop.tasks.scenes import Entry
+from proc3s_tabletop.tasks.selection import Selector
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "docs" / "hooks"))
 

@@ -5,7 +5,7 @@ import json
 import pytest
 
 from proc3s import Request
-from proc3s.recordings import read_recordings
+from proc3s.runs.recordings import read_recordings
 from proc3s_replay.recorded import FOLDER
 
 RECORDINGS = read_recordings(FOLDER)
@@ -20,8 +20,8 @@ def test_there_are_three_answers_to_each_of_nineteen_tasks():
 
 @pytest.mark.parametrize("suite", ["paper", "hard"])
 def test_every_task_of_the_suites_has_answers(suite):
-    from proc3s.registry import open_registry
-    from proc3s.suites.spec import SuiteSpec
+    from proc3s.plugins.registry import open_registry
+    from proc3s.specs.suite import SuiteSpec
 
     assert set(open_registry().get(SuiteSpec, suite).tasks) <= set(TASKS)
 

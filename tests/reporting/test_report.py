@@ -4,12 +4,11 @@ import re
 from html.parser import HTMLParser
 
 import pytest
-
 from browser import needs_chromium, visiting
-from proc3s.registry import open_registry
+
+from proc3s.plugins.registry import folders_of, open_registry
+from proc3s.reporting.history import read_story
 from proc3s.reporting.page import page
-from proc3s.reporting.story import read_story
-from proc3s.reporting.words import folders_of
 
 HOSTILE = """<script>document.title = "answer"</script>
 ```python

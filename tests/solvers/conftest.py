@@ -5,11 +5,13 @@ import math
 import pytest
 
 from proc3s import SolverSpec
-from proc3s.conversation import given_program
-from proc3s.options import RunOptions, make_problem, make_setup, part_options
-from proc3s.planner import plan
-from proc3s.registry import open_registry
-from proc3s.sketch import extract_program
+from proc3s.planning.options import RunOptions
+from proc3s.planning.planner import plan
+from proc3s.planning.proposals import given_program
+from proc3s.planning.setup import make_problem, make_setup
+from proc3s.plugins.part_options import part_options
+from proc3s.plugins.registry import open_registry
+from proc3s.prompts.extract import extract_program
 
 STROKES = 10
 

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from proc3s import Space
-from proc3s.samplers import ContinuousSampler
+from proc3s.domain.samplers import ContinuousSampler
 from proc3s.testing.solvers import blocked, chain, check_batch, hopeless, lock, samples, solution, toy
 
 

@@ -8,10 +8,11 @@ from types import SimpleNamespace
 
 import pytest
 
-from proc3s.options import RunOptions, make_problem
-from proc3s.problem import judge
-from proc3s.registry import open_registry
-from proc3s.suites.spec import SuiteSpec
+from proc3s.planning.options import RunOptions
+from proc3s.planning.setup import make_problem
+from proc3s.plugins.registry import open_registry
+from proc3s.search.rollout import judge
+from proc3s.specs.suite import SuiteSpec
 from proc3s_drawing.shapes import is_spiral, spells_hi
 
 REGISTRY = open_registry()
@@ -145,7 +146,7 @@ ROWS = [{"color": color} for color in ("red", "green", "blue")]
     ids=["a grid", "crooked row", "crooked column", "stacked", "a wrong colour", "far apart"],
 )
 def test_a_grid(state, why):
-    from proc3s_tabletop.formations import grid
+    from proc3s_tabletop.tasks.formations import grid
 
     score = grid(state, (), rows=ROWS, most_along=0.08, most_across=0.12)
     assert score.reached == (why is None), score.reason
@@ -162,7 +163,7 @@ def test_a_grid(state, why):
     ],
 )
 def test_an_order_along_x(xs, ys, why):
-    from proc3s_tabletop.formations import ordered
+    from proc3s_tabletop.tasks.formations import ordered
 
     colors = ("red", "blue", "green")
     state = SimpleNamespace(objects=dict(block(c, c, x, y) for c, x, y in zip(colors, xs, ys, strict=True)))

@@ -6,8 +6,8 @@ import sqlite3
 
 import pytest
 
+from proc3s.specs.suite import load_suite
 from proc3s.suites.results import read_results
-from proc3s.suites.spec import load_suite
 from proc3s.suites.store import FILE, Store
 
 PROGRAM = """```python
@@ -200,10 +200,10 @@ def test_results_are_not_begun_twice(cli, suite):
 
 
 def test_the_shipped_suites_name_what_there_is(cli):
-    from proc3s.registry import open_registry
-    from proc3s.specs import MethodSpec, PresetSpec
+    from proc3s.plugins.registry import open_registry
+    from proc3s.specs.parts import MethodSpec, PresetSpec
+    from proc3s.specs.suite import SuiteSpec
     from proc3s.suites.results import read_figures
-    from proc3s.suites.spec import SuiteSpec
 
     registry = open_registry()
     suites = registry.all(SuiteSpec)

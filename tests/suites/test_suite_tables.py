@@ -6,18 +6,17 @@ import json
 import sqlite3
 
 import pytest
-
 from browser import needs_chromium, visiting
+
 from proc3s import UsageError
-from proc3s.registry import open_registry
-from proc3s.reporting.words import folders_of
+from proc3s.plugins.registry import folders_of, open_registry
+from proc3s.specs.suite import Cell, SuiteSpec
 from proc3s.suites.comparison import comparison
 from proc3s.suites.episode import Episode
-from proc3s.suites.files import FIGURES, write_files
+from proc3s.suites.export import FIGURES, write_files
 from proc3s.suites.outcomes import Unfinished
 from proc3s.suites.results import read_results
 from proc3s.suites.runner import remaining
-from proc3s.suites.spec import Cell, SuiteSpec
 from proc3s.suites.store import FILE, Store
 
 TASKS = ("drawing/star", "drawing/letters")

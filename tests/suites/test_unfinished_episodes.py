@@ -46,7 +46,7 @@ SPEC = """
 spec_version: 1
 name: hall
 summary: A hall.
-world: {target: "proc3s.world:World"}
+world: {target: "proc3s.domain.world:World"}
 state: Hall
 types: {Hall: {summary: A hall., fields: {lamps: {type: float, default: 1.0}}}}
 skills: {step: {summary: Steps., target: "hall:step", params: {length: {type: float}}}}

@@ -1,6 +1,6 @@
 """Skills of a plugin: what the toolbox does, under other names and with other parameters."""
 
-from proc3s_tabletop.world import pick, place
+from proc3s_tabletop.skills import pick, place
 
 
 def grab(world, x, y, z):

@@ -2,10 +2,10 @@
 
 import math
 
-from proc3s_tabletop.bodies import CATEGORIES
-from proc3s_tabletop.recipe import Recipe
-from proc3s_tabletop.reference import Reference
-from proc3s_tabletop.things import Frame
+from proc3s_tabletop.actions.reference import Reference
+from proc3s_tabletop.objects.body import CATEGORIES
+from proc3s_tabletop.robot.frames import Frame
+from proc3s_tabletop.robot.settings import ReferenceSettings
 
 
 def frames_of(positions):
@@ -20,7 +20,7 @@ def bodies_of(positions):
 
 def world_of(positions, speed=1.0):
     """A reference world with everything upright."""
-    return Reference(bodies_of(positions), frames_of(positions), Recipe(speed=speed))
+    return Reference(bodies_of(positions), frames_of(positions), ReferenceSettings(speed=speed))
 
 
 def verdict(telemetry):

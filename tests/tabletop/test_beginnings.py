@@ -5,12 +5,14 @@ import math
 import pytest
 from blocks_domain import belief, blocks_domain
 
+from proc3s.domain.world import flaws_of
+
 DOMAIN = blocks_domain()
 RED, BLUE, BOWL = "object_0 (the red block)", "object_1 (the blue block)", "object_1 (the yellow bowl)"
 
 
 def flaws(*things):
-    return DOMAIN.flaws(belief(DOMAIN, *things))
+    return flaws_of(DOMAIN, belief(DOMAIN, *things))
 
 
 @pytest.mark.parametrize(

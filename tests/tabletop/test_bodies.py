@@ -2,11 +2,12 @@ import numpy as np
 import pytest
 from tables import verdict
 
-from proc3s_tabletop.bodies import BLOCK_SIZE, CATEGORIES, Body, Box, Cylinder
-from proc3s_tabletop.recipe import Recipe
-from proc3s_tabletop.reference import Reference
-from proc3s_tabletop.scene import Scene, Snapshot
-from proc3s_tabletop.things import Frame
+from proc3s_tabletop.actions.reference import Reference
+from proc3s_tabletop.bullet.scene import Scene, Snapshot
+from proc3s_tabletop.objects.body import BLOCK_SIZE, CATEGORIES, Body
+from proc3s_tabletop.objects.shapes import Box, Cylinder
+from proc3s_tabletop.robot.frames import Frame
+from proc3s_tabletop.robot.settings import ReferenceSettings
 
 UPRIGHT = (0.0, 0.0, 0.0, 1.0)
 
@@ -17,7 +18,7 @@ def scene():
     scenes = []
 
     def make(bodies):
-        scenes.append(Scene(bodies, Recipe()))
+        scenes.append(Scene(bodies, ReferenceSettings()))
         return scenes[-1]
 
     yield make

@@ -7,9 +7,8 @@ import pytest
 from blocks_domain import belief, blocks_domain
 
 from proc3s import Action
-from proc3s_tabletop.disturbances import OFF, SPEED, Disturbance
-from proc3s_tabletop.execution import ExecutionWorld
-from proc3s_tabletop.world import ReferenceWorld
+from proc3s_tabletop.actions.disturbances import OFF, SPEED, Disturbance
+from proc3s_tabletop.world import ExecutionWorld, ReferenceWorld
 
 DOMAIN = blocks_domain()
 SCENE = belief(DOMAIN, ("block", "red", -0.15, -0.5, 0.02), ("block", "blue", 0.15, -0.5, 0.02))

@@ -9,17 +9,18 @@ from tables import bodies_of, carry_out, frames_of, jittered, packing, pyramid, 
 from test_agreement import resident
 from test_world import PICK, PLACE, START
 
-from proc3s_tabletop.execution import Execution, ExecutionWorld
-from proc3s_tabletop.recipe import Recipe
+from proc3s_tabletop.actions.execution import Execution
+from proc3s_tabletop.robot.settings import ReferenceSettings
+from proc3s_tabletop.skills import pick, place
 from proc3s_tabletop.telemetry import displacement
-from proc3s_tabletop.world import pick, place
+from proc3s_tabletop.world import ExecutionWorld
 
 BLOCKS = {"a": test_actions.A, "b": test_actions.B, "c": test_actions.C, "bowl": (0.0, -0.65, 0.025)}
 PICK_A = test_actions.PICK_A
 
 
 def executing(positions, speed=1.0):
-    return Execution(bodies_of(positions), frames_of(positions), Recipe(speed=speed))
+    return Execution(bodies_of(positions), frames_of(positions), ReferenceSettings(speed=speed))
 
 
 @pytest.fixture(scope="module")

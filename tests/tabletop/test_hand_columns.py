@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from proc3s_tabletop.client import Client
-from proc3s_tabletop.columns import columns
-from proc3s_tabletop.hand import FloatingHand
-from proc3s_tabletop.recipe import TCP, Recipe
+from proc3s_tabletop.bullet.client import Client
+from proc3s_tabletop.bullet.hand import FloatingHand
+from proc3s_tabletop.robot.hand_profile import columns
+from proc3s_tabletop.robot.settings import TCP, ReferenceSettings
 
 NEXT_TO_THE_EDGE = 5e-4
 
@@ -14,7 +14,7 @@ NEXT_TO_THE_EDGE = 5e-4
 @pytest.fixture(scope="module")
 def hand(tmp_path_factory):
     client = Client()
-    made = FloatingHand(client, Recipe(), tmp_path_factory.mktemp("hand"))
+    made = FloatingHand(client, ReferenceSettings(), tmp_path_factory.mktemp("hand"))
     made.put((0.0, 0.0, TCP), (1.0, 0.0, 0.0, 0.0))
     yield made
     client.close()

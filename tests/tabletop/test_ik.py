@@ -3,11 +3,11 @@ import math
 import numpy as np
 import pytest
 
-from proc3s_tabletop import ik
-from proc3s_tabletop.client import Client
-from proc3s_tabletop.motion import tool_poses, top_down
-from proc3s_tabletop.recipe import HOME, Recipe
-from proc3s_tabletop.robot import Robot
+from proc3s_tabletop.bullet.arm import Robot
+from proc3s_tabletop.bullet.client import Client
+from proc3s_tabletop.robot import ik
+from proc3s_tabletop.robot.grasp_frames import tool_poses, top_down
+from proc3s_tabletop.robot.settings import HOME, ReferenceSettings
 
 
 @pytest.fixture(scope="module")
@@ -18,7 +18,7 @@ def joints():
 @pytest.fixture(scope="module")
 def robot(tmp_path_factory):
     client = Client()
-    yield Robot(client, Recipe(), tmp_path_factory.mktemp("robot"))
+    yield Robot(client, ReferenceSettings(), tmp_path_factory.mktemp("robot"))
     client.close()
 
 

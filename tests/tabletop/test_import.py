@@ -4,7 +4,7 @@ import sys
 import pytest
 
 from proc3s import UsageError
-from proc3s_tabletop.client import Client
+from proc3s_tabletop.bullet.client import Client
 
 
 def run(code):
@@ -13,14 +13,14 @@ def run(code):
 
 def test_no_simulator_is_loaded_before_a_world_is_made():
     code = (
-        "import sys, proc3s_tabletop.world, proc3s_tabletop.motion;"
+        "import sys, proc3s_tabletop.world, proc3s_tabletop.actions.motion;"
         "assert not {'pybullet', 'airo_models'} & set(sys.modules)"
     )
     assert run(code).returncode == 0
 
 
 def test_pybullet_prints_nothing():
-    done = run("from proc3s_tabletop.client import Client; Client().close()")
+    done = run("from proc3s_tabletop.bullet.client import Client; Client().close()")
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
 
 

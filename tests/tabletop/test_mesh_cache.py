@@ -6,7 +6,7 @@ import sys
 
 SCRIPT = """
 import numpy as np
-from proc3s_tabletop.mesh_cache import kept
+from proc3s_tabletop.meshes.cache import kept
 print(kept("key", lambda: {"a": np.arange(1000)})["a"].sum())
 """
 

@@ -10,12 +10,14 @@ import trimesh
 from scipy.spatial import ConvexHull
 
 from proc3s import SpecError
-from proc3s_tabletop.body_specs import bodies_of
-from proc3s_tabletop.recipe import Recipe
-from proc3s_tabletop.things import Frame
-from proc3s_tabletop.workbench import Workbench
+from proc3s_tabletop.bullet.grip_cache import GripSimulator
+from proc3s_tabletop.catalogue.body_specs import bodies_of
+from proc3s_tabletop.robot.frames import Frame
+from proc3s_tabletop.robot.settings import ReferenceSettings
 
-PREPARE = "import sys; from proc3s_tabletop.meshes import *; print(prepare(Path(sys.argv[1]), 0.001).error)"
+PREPARE = (
+    "import sys; from proc3s_tabletop.meshes.prepare import *; print(prepare(Path(sys.argv[1]), 0.001).error)"
+)
 
 
 @pytest.fixture(autouse=True)
@@ -51,7 +53,7 @@ def mesh(path, **more):
 
 def stays(body):
     start = Frame((0.0, 0.0, body.height), (0.0, 0.0, 0.0, 1.0))
-    bench = Workbench({"thing": body}, Recipe())
+    bench = GripSimulator({"thing": body}, ReferenceSettings())
     try:
         found = bench.rest(((body, start),))
     finally:

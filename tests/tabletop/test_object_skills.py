@@ -10,13 +10,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from proc3s import Action, Pose, SkillSpec
-from proc3s.constraints import check
-from proc3s.specs import ParamSpec
-from proc3s.transforms import compose
-from proc3s_tabletop.execution import ExecutionWorld
-from proc3s_tabletop.grasp_sampler import GraspSampler
-from proc3s_tabletop.programs import RigidPoseMethods
-from proc3s_tabletop.world import ReferenceWorld
+from proc3s.domain.margins import check
+from proc3s.domain.transforms import compose
+from proc3s.specs.domain import ParamSpec
+from proc3s_tabletop.tasks.grasp_sampler import GraspSampler
+from proc3s_tabletop.tasks.state_methods import RigidPoseMethods
+from proc3s_tabletop.world import ExecutionWorld, ReferenceWorld
 
 DOWN = Pose(0.0, 0.0, 0.0, 0.0, math.pi, math.pi / 2)
 ACROSS = dataclasses.replace(DOWN, yaw=0.0)

@@ -11,13 +11,14 @@ from PIL import Image
 from test_world import PICK, PLACE, START
 
 from proc3s import Pose
-from proc3s_tabletop.bodies import Body, Bowl, Box, Cylinder
-from proc3s_tabletop.execution import ExecutionWorld
-from proc3s_tabletop.pictures import SIZE, Studio
-from proc3s_tabletop.scene import Snapshot
-from proc3s_tabletop.things import Frame
-from proc3s_tabletop.visuals import UNKNOWN, color_of
-from proc3s_tabletop.world import ReferenceWorld, pick, place
+from proc3s_tabletop.bullet.pictures import SIZE, Studio
+from proc3s_tabletop.bullet.scene import Snapshot
+from proc3s_tabletop.bullet.visuals import UNKNOWN, color_of
+from proc3s_tabletop.objects.body import Body
+from proc3s_tabletop.objects.shapes import Bowl, Box, Cylinder
+from proc3s_tabletop.robot.frames import Frame
+from proc3s_tabletop.skills import pick, place
+from proc3s_tabletop.world import ExecutionWorld, ReferenceWorld
 
 PLAN = (PICK, PLACE)
 UPRIGHT = (0.0, 0.0, 0.0, 1.0)
@@ -139,7 +140,7 @@ def test_names_of_colours_are_what_they_say():
 
 def test_nothing_is_loaded_for_pictures_that_nobody_asks_for():
     code = (
-        "import sys, proc3s_tabletop.execution;"
+        "import sys, proc3s_tabletop.actions.execution;"
         "assert not {'pybullet', 'airo_models', 'PIL', 'matplotlib'} & set(sys.modules)"
     )
     subprocess.run([sys.executable, "-c", code], check=True, timeout=60)

@@ -7,9 +7,10 @@ import pytest
 from blocks_domain import belief, blocks_domain
 
 from proc3s import Action, PlanBatch
-from proc3s.constraints import check
-from proc3s.specs import ParamSpec
-from proc3s_tabletop.screens import geometry, reach
+from proc3s.domain.margins import check
+from proc3s.domain.world import make_world
+from proc3s.specs.domain import ParamSpec
+from proc3s_tabletop.screens.geometry import geometry, reach
 
 A = (-0.15, -0.5, 0.02)
 EMPTY, OFF, AWAY = (0.0, -0.3, 0.02), (-0.125, -0.5, 0.02), (0.0, -1.2, 0.02)
@@ -28,14 +29,14 @@ def renamed(targets, constraints=None):
     return dataclasses.replace(TOOLBOX, spec=spec)
 
 
-SAME = {"grab": "proc3s_tabletop.world:pick", "put": "proc3s_tabletop.world:place"}
+SAME = {"grab": "proc3s_tabletop.skills:pick", "put": "proc3s_tabletop.skills:place"}
 WRAPPED = {"grab": "own_skills:grab", "put": "own_skills:put"}
-SWAPPED = {"place": "proc3s_tabletop.world:pick", "pick": "proc3s_tabletop.world:place"}
+SWAPPED = {"place": "proc3s_tabletop.skills:pick", "pick": "proc3s_tabletop.skills:place"}
 
 
 def told(domain, skill, *args):
     """What a first action violates in the world."""
-    world = domain.make_world()
+    world = make_world(domain)
     try:
         world.reset(belief(domain, ("block", "red", *A)))
         _, found = check(domain, world.step(Action(skill, args)), 0)

@@ -8,9 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from proc3s import SpecError
-from proc3s_tabletop.bodies import CATEGORIES
-from proc3s_tabletop.extents import extent, gap
-from proc3s_tabletop.scenes import scene
+from proc3s_tabletop.objects.body import CATEGORIES
+from proc3s_tabletop.objects.extents import extent, gap
+from proc3s_tabletop.tasks.scenes import scene
 
 BLOCKS = {"category": "block", "color": ["red", "blue"], "count": 6}
 BOWLS = {"category": "bowl", "color": "green", "count": 2, "apart": 0.16}
@@ -84,7 +84,7 @@ def test_several_colours_are_drawn_from():
 def test_a_scene_that_jams_is_begun_again(monkeypatch):
     crowd = [{"category": "block", "count": 9}]
     assert all(len(made(seed, crowd)) == 9 for seed in range(20))
-    monkeypatch.setattr("proc3s_tabletop.scenes.SCENES", 1)
+    monkeypatch.setattr("proc3s_tabletop.tasks.scenes.SCENES", 1)
     with pytest.raises(ValueError, match="in 1 attempts: no room"):
         [made(seed, crowd) for seed in range(20)]
 

@@ -4,7 +4,8 @@ import pytest
 from blocks_domain import belief, blocks_domain
 
 from proc3s import Action
-from proc3s.constraints import check
+from proc3s.domain.margins import check
+from proc3s.domain.world import make_world
 
 A, B, C = (-0.15, -0.5, 0.02), (0.0, -0.5, 0.02), (0.15, -0.5, 0.02)
 BOWL = (0.0, -0.65, 0.025)
@@ -19,7 +20,7 @@ def domain():
 
 @pytest.fixture(scope="module")
 def world(domain):
-    made = domain.make_world()
+    made = make_world(domain)
     yield made
     made.close()
 

@@ -4,7 +4,7 @@ from types import SimpleNamespace
 import pytest
 
 from proc3s import SpecError
-from proc3s_tabletop import judges
+from proc3s_tabletop.tasks import judges
 
 UP = (0.0, 0.0, 0.0)
 

@@ -11,10 +11,13 @@ from hypothesis import strategies as st
 from test_actions import PASS, A, B, C, place
 
 from proc3s import Action, PlanBatch, Problem
-from proc3s.benchmark import SCREENED, Bench, find_cases
-from proc3s.problem import carry_out
-from proc3s.registry import open_registry
-from proc3s_tabletop.screens import geometry, reach
+from proc3s.benchmark.cases import find_cases
+from proc3s.benchmark.measurement import SCREENED
+from proc3s.benchmark.throughput import Bench
+from proc3s.domain.world import make_world
+from proc3s.plugins.registry import open_registry
+from proc3s.search.rollout import carry_out
+from proc3s_tabletop.screens.geometry import geometry, reach
 
 DOMAIN = blocks_domain()
 THINGS = [
@@ -49,7 +52,7 @@ def verdict(plan, scene=SCENE, domain=DOMAIN):
 def world_says(plan, scene):
     """The first violation in the world."""
     made = open_registry().domain("blocks")
-    world = made.make_world()
+    world = make_world(made)
     try:
         as_json = json.dumps(made.states.dump(scene))
         problem = Problem(made, made.spec.tasks["line"], as_json, goal="", seed=0, samples=1)

@@ -8,11 +8,12 @@ import pytest
 from blocks_domain import belief, blocks_domain
 
 from proc3s import Action, PlanBatch
-from proc3s.constraints import check
-from proc3s_tabletop.bodies import Bowl, Box, Cylinder, Shape
-from proc3s_tabletop.motion import top_down
-from proc3s_tabletop.screens import geometry
-from proc3s_tabletop.widths import TOO_WIDE, too_wide
+from proc3s.domain.margins import check
+from proc3s.domain.world import make_world
+from proc3s_tabletop.objects.shapes import Bowl, Box, Cylinder, Shape
+from proc3s_tabletop.robot.grasp_frames import top_down
+from proc3s_tabletop.robot.widths import TOO_WIDE, too_wide
+from proc3s_tabletop.screens.geometry import geometry
 
 AT = (0.0, -0.5, 0.02)
 SAYS = f"object_0 (the red thing) {TOO_WIDE}"
@@ -37,7 +38,7 @@ def told(body, at=AT, turn=()):
     """The first violation of a pick, as the world has it, and as the screen has it if it has one."""
     domain = domain_of(body)
     scene = belief(domain, ("thing", "red", *AT, *turn))
-    world = domain.make_world()
+    world = make_world(domain)
     try:
         world.reset(scene)
         _, found = check(domain, world.step(Action("pick", at)), 0)

@@ -5,11 +5,12 @@ import math
 import pytest
 from tables import bodies_of, carry_out, frames_of
 
-from proc3s_tabletop.bodies import CATEGORIES
-from proc3s_tabletop.recipe import Recipe
-from proc3s_tabletop.scene import Snapshot
-from proc3s_tabletop.things import Frame, Things
-from proc3s_tabletop.workbench import Workbench
+from proc3s_tabletop.bullet.grip_cache import GripSimulator
+from proc3s_tabletop.bullet.scene import Snapshot
+from proc3s_tabletop.bullet.simulation import Things
+from proc3s_tabletop.objects.body import CATEGORIES
+from proc3s_tabletop.robot.frames import Frame
+from proc3s_tabletop.robot.settings import ReferenceSettings
 
 SCENE = {"a": (0, 0, 0), "b": (0, 0, 0), "c": (0, 0, 0), "bowl": (0, 0, 0)}
 BLOCK, BOWL = CATEGORIES["block"], CATEGORIES["bowl"]
@@ -18,7 +19,7 @@ LEVEL = (0.0, 0.0, 0.0, 1.0)
 
 @pytest.fixture
 def bench():
-    made = Workbench(bodies_of(SCENE), Recipe())
+    made = GripSimulator(bodies_of(SCENE), ReferenceSettings())
     yield made
     made.close()
 
@@ -84,7 +85,7 @@ def test_a_used_bench_gives_what_a_fresh_one_gives(bench):
     grips = [(tool(0.0, -0.5, 0.02), ((BLOCK, Frame((dx, -0.5, 0.02), LEVEL)),), 1.0) for dx in (0.0, 0.008)]
 
     def answers(questions, grips):
-        fresh = Workbench(bodies_of(SCENE), Recipe())
+        fresh = GripSimulator(bodies_of(SCENE), ReferenceSettings())
         try:
             gripped = {grip: fresh.grip(*grip) for grip in grips}
             return {question: fresh.rest(question) for question in questions} | gripped

@@ -4,7 +4,8 @@ from types import SimpleNamespace
 import pytest
 
 from proc3s import Action, Pose, SpecError, State
-from proc3s_tabletop.world import ReferenceWorld, pick, place
+from proc3s_tabletop.skills import pick, place
+from proc3s_tabletop.world import ReferenceWorld
 
 
 @dataclass(frozen=True)
@@ -83,7 +84,7 @@ def test_an_unknown_category_says_which_there_are(world):
 def test_poses_survive_the_simulator(world):
     turned = Pose(0.1, -0.6, 0.3, 0.2, -0.7, 2.5)
     world.reset(Table({"object_0": Thing("block", "red", Pose(0.0, -0.5, 0.02))}))
-    from proc3s_tabletop import poses
+    from proc3s_tabletop.robot import frames as poses
 
     assert poses.numbers(poses.frame(turned)) == pytest.approx(vars(turned))
     rotation = world.table.scene.client.getQuaternionFromEuler([0.2, -0.7, 2.5])

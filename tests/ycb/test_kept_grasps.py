@@ -9,13 +9,14 @@ import numpy as np
 import pytest
 
 from proc3s import Action, PlanBatch, Pose, Problem
-from proc3s.problem import rollout
-from proc3s.registry import open_registry
-from proc3s_tabletop.body_specs import bodies_of
-from proc3s_tabletop.grasp_sampler import GraspSampler, pool
-from proc3s_tabletop.grasp_screen import grasps
-from proc3s_tabletop.lone_grasps import LoneGrasps
-from proc3s_tabletop.verdicts import Verdict, Verdicts
+from proc3s.domain.world import make_world
+from proc3s.plugins.registry import open_registry
+from proc3s.search.rollout import rollout
+from proc3s_tabletop.catalogue.body_specs import bodies_of
+from proc3s_tabletop.screens.grasp_cache import GraspVerdict, Verdicts
+from proc3s_tabletop.screens.grasps import grasps
+from proc3s_tabletop.screens.lone_grasps import LoneGrasps
+from proc3s_tabletop.tasks.grasp_sampler import GraspSampler, pool
 
 YCB = open_registry().domain("ycb")
 SCENE = YCB.scene(YCB.spec.tasks["packing"], 0)
@@ -26,10 +27,10 @@ PICK = next(k for k, s in enumerate(SIGNATURES) if s.skill == "pick")
 ADD = """
 import sys
 from pathlib import Path
-from proc3s_tabletop.verdicts import Verdict, Verdicts
+from proc3s_tabletop.screens.grasp_cache import GraspVerdict, Verdicts
 store = Verdicts(sys.argv[2], Path(sys.argv[1]))
 for k in range(50):
-    store.add({(k / 10, 0.0, 0.0, 0.0, 0.0, float(sys.argv[3])): Verdict(k / 100, 0.5, k % 2 == 0)})
+    store.add({(k / 10, 0.0, 0.0, 0.0, 0.0, float(sys.argv[3])): GraspVerdict(k / 100, 0.5, k % 2 == 0)})
 """
 
 
@@ -49,7 +50,10 @@ def test_the_pool_has_one_grasp_in_every_cell():
 
 
 def test_verdicts_are_kept_under_their_key(tmp_path):
-    found = {(0.1, 0.0, 0.0, 0.0, 0.0, 0.5): Verdict(0.001, 0.6), (0.2,) * 6: Verdict(0.0, 1.0, True)}
+    found = {
+        (0.1, 0.0, 0.0, 0.0, 0.0, 0.5): GraspVerdict(0.001, 0.6),
+        (0.2,) * 6: GraspVerdict(0.0, 1.0, True),
+    }
     Verdicts("a", tmp_path).add(found)
     assert Verdicts("a", tmp_path).read() == found
     assert Verdicts("b", tmp_path).read() == {}
@@ -59,13 +63,13 @@ def test_a_damaged_file_is_begun_anew(tmp_path):
     (tmp_path / "grasps.sqlite").write_bytes(b"no database, but long enough to be read as one" * 100)
     store = Verdicts("a", tmp_path)
     assert store.read() == {}
-    store.add({(0.0,) * 6: Verdict(0.0, 1.0)})
+    store.add({(0.0,) * 6: GraspVerdict(0.0, 1.0)})
     assert len(store.read()) == 1
 
 
 def test_a_file_with_a_damaged_page_is_begun_anew(tmp_path):
     store = Verdicts("a", tmp_path)
-    store.add({(k / 7, *(0.1,) * 5): Verdict(0.0, 1.0) for k in range(500)})
+    store.add({(k / 7, *(0.1,) * 5): GraspVerdict(0.0, 1.0) for k in range(500)})
     path = tmp_path / "grasps.sqlite"
     content = bytearray(path.read_bytes())
     content[5000:9000] = b"\xff" * 4000
@@ -84,8 +88,7 @@ def test_what_was_measured_is_not_measured_again(fresh, monkeypatch):
     first = LoneGrasps(BODIES["strawberry"], 0.0, 0.0)
     fits, holds = first.fits(pool()[:20]), first.holds(pool()[:5])
     again = LoneGrasps(BODIES["strawberry"], 0.0, 0.0)
-    monkeypatch.setattr("proc3s_tabletop.lone_grasps.Things", None)  # no simulator
-    monkeypatch.setattr("proc3s_tabletop.lone_grasps.Workbench", None)
+    monkeypatch.setattr("proc3s_tabletop.screens.lone_grasps.engine", None)  # no simulator
     assert (again.fits(pool()[:20]) == fits).all()
     assert (again.holds(pool()[:5]) == holds).all()
     with pytest.raises(TypeError):
@@ -98,7 +101,7 @@ def test_grasps_of_a_programs_own_are_measured_but_not_kept(fresh, monkeypatch):
     assert measured[0].tolist() == [0.0, pytest.approx(1.0, abs=0.2)]
     assert measured[1, 1] == 0.0
     again = LoneGrasps(BODIES["strawberry"], 0.0, 0.0)
-    monkeypatch.setattr("proc3s_tabletop.lone_grasps.Things", None)  # no simulator
+    monkeypatch.setattr("proc3s_tabletop.screens.lone_grasps.engine", None)  # no simulator
     with pytest.raises(TypeError):
         again.fits(own)
 
@@ -113,7 +116,7 @@ def batch_of(name, wanted):
 
 @pytest.fixture(scope="module")
 def world():
-    made = YCB.make_world()
+    made = make_world(YCB)
     yield made
     made.close()
 
@@ -172,7 +175,7 @@ def test_a_pick_is_known_by_its_function_and_only_as_long_as_nothing_unknown_cam
     pick = YCB.spec.skills["pick"]
     skills = {
         "hoist": pick.model_copy(update={"name": "hoist"}),
-        "pick": pick.model_copy(update={"target": "proc3s_tabletop.table:Table"}),
+        "pick": pick.model_copy(update={"target": "proc3s_tabletop.actions.table:Table"}),
     }
     domain = dataclasses.replace(YCB, spec=YCB.spec.model_copy(update={"skills": skills}))
     bad = np.array([0.0, 0.07, 0.005, 0.0, np.pi, 0.0])

@@ -5,12 +5,12 @@ import re
 
 import pytest
 
-from proc3s.registry import open_registry
-from proc3s_tabletop import poses
-from proc3s_tabletop.body_specs import bodies_of
-from proc3s_tabletop.recipe import Recipe
-from proc3s_tabletop.standing import on_another
-from proc3s_tabletop.workbench import Workbench
+from proc3s.plugins.registry import open_registry
+from proc3s_tabletop.bullet.grip_cache import GripSimulator
+from proc3s_tabletop.catalogue.body_specs import bodies_of
+from proc3s_tabletop.robot import frames as poses
+from proc3s_tabletop.robot.settings import ReferenceSettings
+from proc3s_tabletop.tasks.standing import on_another
 
 YCB = open_registry().domain("ycb")
 BODIES = YCB.spec.world.args["bodies"]
@@ -37,7 +37,7 @@ def stacked():
     """The strawberry where it comes to rest on the can."""
     bodies = bodies_of(BODIES)
     names, start = (CAN, BERRY), over_can(BERRY, BERRY_LOW)
-    bench = Workbench({name: bodies[START.objects[name].category] for name in names}, Recipe())
+    bench = GripSimulator({name: bodies[START.objects[name].category] for name in names}, ReferenceSettings())
     lies = [(bodies[start.objects[n].category], poses.frame(start.objects[n].pose)) for n in names]
     rest = bench.rest(tuple(lies))
     bench.close()

@@ -7,14 +7,15 @@ import re
 
 import numpy as np
 import pytest
-
 from boxing import box, reaches_goal, trials
-from proc3s.options import RunOptions, make_problem
-from proc3s.problem import judge
-from proc3s.prompts import example_turns
-from proc3s.registry import open_registry
-from proc3s.sketch import extract_program
-from proc3s_tabletop.body_specs import bodies_of
+
+from proc3s.planning.options import RunOptions
+from proc3s.planning.setup import make_problem
+from proc3s.plugins.registry import open_registry
+from proc3s.prompts.examples import example_turns
+from proc3s.prompts.extract import extract_program
+from proc3s.search.rollout import judge
+from proc3s_tabletop.catalogue.body_specs import bodies_of
 
 REGISTRY = open_registry()
 YCB = REGISTRY.domain("ycb")

@@ -8,9 +8,8 @@ from typing import Any
 
 import typer
 
-from proc3s.cli import (
+from proc3s.cli.commands import (
     bench,
-    catalogue,
     check,
     compare,
     doctor,
@@ -24,6 +23,7 @@ from proc3s.cli import (
     run,
     schema,
 )
+from proc3s.cli.commands import list as catalogue
 from proc3s.cli.streams import document_alone, exit_code, take_streams
 from proc3s.errors import Proc3sError
 

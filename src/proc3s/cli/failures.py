@@ -2,7 +2,7 @@
 
 import typer
 
-from proc3s.registry import Registry
+from proc3s.plugins.registry import Registry
 
 
 def warn_of_failures(registry: Registry) -> None:

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from proc3s.reporting.story import Program
+from proc3s.reporting.history import ProgramRecord
 from proc3s.reporting.trials import Samples, StepReport
 
 STYLE: dict[Any, Any] = {
@@ -43,7 +43,7 @@ def colors_of(names: Sequence[str]) -> dict[str, str]:
     return {name: _COLORS[i % len(_COLORS)] for i, name in enumerate(names)}
 
 
-def by_parameter(program: Program, colors: Mapping[str, str]) -> str | None:
+def by_parameter(program: ProgramRecord, colors: Mapping[str, str]) -> str | None:
     """A plot for each open parameter: its values against the step that samples reached.
 
     None where nothing was sampled.
@@ -65,7 +65,7 @@ def by_parameter(program: Program, colors: Mapping[str, str]) -> str | None:
         return svg(figure)
 
 
-def _columns(program: Program) -> list[tuple[str, int, float, float]]:
+def _columns(program: ProgramRecord) -> list[tuple[str, int, float, float]]:
     """(label, column of u, least value, greatest value) of every dimension that is searched.
 
     Where the sampler is not one between bounds, u itself is drawn, from 0 to 1.

@@ -4,10 +4,10 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from proc3s.reporting.pointers import Pointer, of_program, of_run
-from proc3s.reporting.story import Program, Round, Story
-from proc3s.reporting.words import Words
-from proc3s.sketch.text import clean
+from proc3s.reporting.advice import Pointer, of_program, of_run
+from proc3s.reporting.history import ProgramRecord, RoundRecord, Story
+from proc3s.reporting.templates import ReportTemplates
+from proc3s.sandbox.text import clean
 
 _OF_PROGRAM = {
     *("round", "candidate", "ending", "best", "blocks", "parameters", "taken", "evaluations", "rejected_by")
@@ -18,12 +18,15 @@ _LONGEST = 100_000
 
 def explain(story: Story, folders: Sequence[Path]) -> str:
     """The run in plain words, round by round, fit for a terminal. The words are in `explain.j2`."""
-    return clean(Words(folders).render("explain.j2", **explained(story, folders)).strip(), _LONGEST) + "\n"
+    return (
+        clean(ReportTemplates(folders).render("explain.j2", **explained(story, folders)).strip(), _LONGEST)
+        + "\n"
+    )
 
 
 def explained(story: Story, folders: Sequence[Path]) -> dict[str, Any]:
     """The same as data: what `proc3s explain --json` prints and what the template is given."""
-    words = Words(folders)
+    words = ReportTemplates(folders)
     return {
         "run": str(story.run),
         "task": story.task,
@@ -40,7 +43,7 @@ def explained(story: Story, folders: Sequence[Path]) -> dict[str, Any]:
     }
 
 
-def looks(pointers: Sequence[Pointer], words: Words) -> list[dict[str, Any]]:
+def looks(pointers: Sequence[Pointer], words: ReportTemplates) -> list[dict[str, Any]]:
     """Pointers with their sentences."""
     return [
         {
@@ -52,7 +55,7 @@ def looks(pointers: Sequence[Pointer], words: Words) -> list[dict[str, Any]]:
     ]
 
 
-def _round(round_: Round, story: Story, words: Words) -> dict[str, Any]:
+def _round(round_: RoundRecord, story: Story, words: ReportTemplates) -> dict[str, Any]:
     return {
         "round": round_.number,
         "origin": round_.completions[0].source if round_.completions else "none",
@@ -62,7 +65,7 @@ def _round(round_: Round, story: Story, words: Words) -> dict[str, Any]:
     }
 
 
-def _program(program: Program, story: Story, words: Words) -> dict[str, Any]:
+def _program(program: ProgramRecord, story: Story, words: ReportTemplates) -> dict[str, Any]:
     diagnosis = program.diagnosis
     return {
         **program.model_dump(mode="json", include=_OF_PROGRAM),

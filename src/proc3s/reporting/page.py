@@ -17,12 +17,12 @@ from pygments.formatters import HtmlFormatter
 from pygments.lexers import get_lexer_by_name
 
 from proc3s.errors import UsageError
-from proc3s.feedback import Diagnosis
+from proc3s.feedback.report import Diagnosis
 from proc3s.reporting import charts
 from proc3s.reporting.explanation import explained
-from proc3s.reporting.story import Program, Round, Story
-from proc3s.reporting.words import Words
-from proc3s.sketch.text import clean
+from proc3s.reporting.history import ProgramRecord, RoundRecord, Story
+from proc3s.reporting.templates import ReportTemplates
+from proc3s.sandbox.text import clean
 
 _STEP = re.compile(r"plan-step(\d+)$")
 _LONGEST = 400_000
@@ -31,7 +31,7 @@ _LONGEST = 400_000
 
 def page(story: Story, folders: Sequence[Path]) -> str:
     """The page. Raises UsageError or SpecError for a template that is missing or does not render."""
-    words = Words(folders, html=True)
+    words = ReportTemplates(folders, html=True)
     css = _highlighting() + words.render("report.css")
     colors = charts.colors_of(sorted({v for p in story.programs for v in p.samples.violation if v}))
     return words.render(
@@ -73,7 +73,7 @@ def _shown(value: Any) -> Any:
     return [_shown(item) for item in value] if isinstance(value, list | tuple) else value
 
 
-def _details(round_: Round, colors: dict[str, str]) -> dict[str, Any]:
+def _details(round_: RoundRecord, colors: dict[str, str]) -> dict[str, Any]:
     """What a round has beside its explanation: texts, highlighted, and charts."""
     return {
         "messages": [(m.role, m.kind, colored(m.text, "markdown")) for m in round_.messages],
@@ -84,7 +84,7 @@ def _details(round_: Round, colors: dict[str, str]) -> dict[str, Any]:
     }
 
 
-def _of_program(program: Program, colors: dict[str, str]) -> dict[str, Any]:
+def _of_program(program: ProgramRecord, colors: dict[str, str]) -> dict[str, Any]:
     samplers, steps = charts.by_parameter(program, colors), charts.by_step(program.steps, colors)
     return {
         "answer": None if program.answer is None else colored(program.answer, "markdown"),

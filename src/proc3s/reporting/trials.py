@@ -7,7 +7,7 @@ from typing import Any
 
 from pydantic import BaseModel, ConfigDict
 
-from proc3s.feedback import Diagnosis
+from proc3s.feedback.report import Diagnosis
 
 
 class Samples(BaseModel):

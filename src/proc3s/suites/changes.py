@@ -3,11 +3,12 @@
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from proc3s.conversation import conversation
 from proc3s.errors import Proc3sError
-from proc3s.llms import digest
-from proc3s.options import RunOptions, make_problem, make_prompter
-from proc3s.registry import Registry
+from proc3s.llm.types import digest
+from proc3s.planning.options import RunOptions
+from proc3s.planning.setup import make_problem, make_prompter
+from proc3s.plugins.registry import Registry
+from proc3s.prompts.conversation import conversation
 from proc3s.suites.episode import Episode
 
 

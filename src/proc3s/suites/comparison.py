@@ -8,7 +8,7 @@ from proc3s.errors import UsageError
 from proc3s.suites.outcomes import ALWAYS, FINISHED, UNFINISHED
 from proc3s.suites.results import Result, Results
 from proc3s.suites.statistics import Estimate, paired_means, paired_proportions
-from proc3s.suites.tables import Table
+from proc3s.suites.tables import SuiteTable
 
 Pair: TypeAlias = tuple[Result, Result]
 Key: TypeAlias = tuple[str, ...]
@@ -22,7 +22,7 @@ FIGURES: tuple[tuple[str, Callable[[Result], float | None]], ...] = (
 """What is compared beside success, and where it stands in a result."""
 
 
-def comparison(first: Results, second: Results) -> Table:
+def comparison(first: Results, second: Results) -> SuiteTable:
     """The second less the first, paired by task, method and seed, for every task and for all together.
 
     Where each suite has one method or one preset, and another one, these are what is compared, and do not
@@ -42,16 +42,16 @@ def comparison(first: Results, second: Results) -> Table:
         "of a bootstrap for means. Pairs with answers written by hand, or given to earlier prompts, say "
         "nothing of success."
     )
-    return Table("Differences", head, tuple(lines), note)
+    return SuiteTable("Differences", head, tuple(lines), note)
 
 
-def outcomes(first: Results, second: Results) -> Table:
+def outcomes(first: Results, second: Results) -> SuiteTable:
     """How many episodes of each suite ended how, whether the other has them or not."""
     counts = [Counter(word for line in r.lines for word in r.words(line)) for r in (first, second)]
     words = [word for word in (*FINISHED, *UNFINISHED) if word in ALWAYS or any(c[word] for c in counts)]
     lines = tuple((word, *(str(c[word]) for c in counts)) for word in words)
     note = f"Of these, {', '.join(UNFINISHED)} could not be carried out, and are in no pair."
-    return Table("Outcomes", ("outcome", "A", "B"), lines, note)
+    return SuiteTable("Outcomes", ("outcome", "A", "B"), lines, note)
 
 
 def _compared(first: Results, second: Results, name: str) -> bool:

@@ -5,11 +5,11 @@ from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict
 
-from proc3s.budget import Spent
-from proc3s.llms import Completion
-from proc3s.runs import read_events
-from proc3s.suites.spec import Cell
-from proc3s.summary import Summary
+from proc3s.llm.budget import Spent
+from proc3s.llm.types import Completion
+from proc3s.planning.summary import Summary
+from proc3s.runs.reading import read_events
+from proc3s.specs.suite import Cell
 
 
 class Episode(BaseModel):

@@ -5,8 +5,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
-from proc3s.errors import BudgetSpent, Interrupted, LLMError, OutOfTime, Pending, Proc3sError, UsageError
-from proc3s.suites.spec import Cell
+from proc3s.errors import Interrupted, OutOfTime, Proc3sError, UsageError
+from proc3s.llm.errors import BudgetSpent, LLMError, Pending
+from proc3s.specs.suite import Cell
 
 Word: TypeAlias = Literal[
     "goal reached",

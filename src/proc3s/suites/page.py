@@ -11,18 +11,18 @@ from markupsafe import Markup
 from PIL import Image, UnidentifiedImageError
 
 from proc3s.reporting.page import data_url
-from proc3s.reporting.words import Words
+from proc3s.reporting.templates import ReportTemplates
 from proc3s.suites.charts import curves, success_bars
 from proc3s.suites.results import Result, Results
-from proc3s.suites.tables import Table, provenance
+from proc3s.suites.tables import SuiteTable, provenance
 
 THUMBNAIL = (260, 260)
 """Largest width and height of a picture in the gallery, pixels."""
 
 
-def page(results: Results, tables: Sequence[Table], folder: Path, templates: Sequence[Path]) -> str:
+def page(results: Results, tables: Sequence[SuiteTable], folder: Path, templates: Sequence[Path]) -> str:
     """The page. Raises UsageError or SpecError for a template that is missing or does not render."""
-    words = Words(templates, html=True)
+    words = ReportTemplates(templates, html=True)
     css = words.render("report.css") + words.render("suite.css")
     charts = {"Success": success_bars(results), "Samples to a solution": curves(results)}
     return words.render(

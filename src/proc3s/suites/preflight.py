@@ -4,16 +4,17 @@ import itertools
 from collections import Counter
 from collections.abc import Iterator, Sequence
 
-from proc3s.backends import Chosen, find_llm, patient, price_of
-from proc3s.budget import Budget, Ledger
-from proc3s.conversation import Question
 from proc3s.errors import Proc3sError, SpecError, UsageError
-from proc3s.expense import Bound, bound_of
-from proc3s.options import RunOptions, key_values, make_problem, make_prompter, make_setup
-from proc3s.readiness import check_parts
-from proc3s.registry import Registry
+from proc3s.llm.budget import Budget, Ledger
+from proc3s.planning.expense import Bound, bound_of
+from proc3s.planning.llm_backend import Chosen, find_llm, patient, price_of
+from proc3s.planning.options import RunOptions, key_values
+from proc3s.planning.proposals import Question
+from proc3s.planning.readiness import check_parts
+from proc3s.planning.setup import make_problem, make_prompter, make_setup
+from proc3s.plugins.registry import Registry
+from proc3s.specs.suite import Cell, SuiteSpec
 from proc3s.suites.runner import Order
-from proc3s.suites.spec import Cell, SuiteSpec
 
 
 def check_order(registry: Registry, order: Order, cells: Sequence[Cell]) -> Bound | None:

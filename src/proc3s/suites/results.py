@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import Any
 
 from proc3s.errors import UsageError
+from proc3s.specs.suite import Cell, SuiteSpec
 from proc3s.suites.episode import Episode
 from proc3s.suites.outcomes import Unfinished, Word
-from proc3s.suites.spec import Cell, SuiteSpec
-from proc3s.suites.store import Store, Verdict
+from proc3s.suites.store import JudgeVerdict, Store
 from proc3s.textfiles import read_text
 
 
@@ -19,7 +19,7 @@ class Result:
     """An episode and what a person said of it, if anyone did."""
 
     episode: Episode
-    verdict: Verdict | None = None
+    verdict: JudgeVerdict | None = None
 
     @property
     def success(self) -> bool | None:

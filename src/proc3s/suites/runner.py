@@ -15,14 +15,14 @@ from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from proc3s.budget import Ledger
 from proc3s.errors import Proc3sError
-from proc3s.runs import LOG, events_of
+from proc3s.llm.budget import Ledger
+from proc3s.planning.summary import Summary
+from proc3s.runs.reading import LOG, events_of
+from proc3s.specs.suite import Cell, SuiteSpec
 from proc3s.suites.episode import Episode, episode_of
 from proc3s.suites.outcomes import Unfinished
-from proc3s.suites.spec import Cell, SuiteSpec
 from proc3s.suites.store import Store
-from proc3s.summary import Summary
 from proc3s.wording import total
 
 RUNS = "runs"
@@ -54,7 +54,7 @@ class Order:
     """Tasks that have a judge."""
 
 
-Outcome = Episode | Unfinished
+EpisodeOutcome = Episode | Unfinished
 
 
 class Runner:
@@ -70,13 +70,13 @@ class Runner:
         """The errors of the latest episodes, as long as they are the same."""
         self._spent = {run.name: spent_on(run) for run in (store.folder / RUNS).glob("*")}
 
-    def outcomes(self, cells: Iterable[Cell]) -> Iterator[Outcome]:
+    def outcomes(self, cells: Iterable[Cell]) -> Iterator[EpisodeOutcome]:
         """What became of each episode, as they end; a finished one is in the store by then.
 
         No more are begun once `max_cost` is spent.
         """
         waiting, pool = iter(cells), ThreadPoolExecutor(self._order.jobs)
-        under_way: set[Future[Outcome]] = set()
+        under_way: set[Future[EpisodeOutcome]] = set()
         try:
             while True:
                 while len(under_way) < self._order.jobs and not self._poor():
@@ -122,7 +122,7 @@ class Runner:
         if (left := self._left()) is not None:
             self._allotted[cell] = left / (self._order.jobs - len(self._allotted))
 
-    def _settle(self, outcome: Outcome) -> Outcome:
+    def _settle(self, outcome: EpisodeOutcome) -> EpisodeOutcome:
         self._allotted.pop(outcome.cell, None)
         self._broke |= isinstance(outcome, Unfinished) and outcome.stopped == "budget"
         self._spent[outcome.cell.folder] = spent_on(self._store.folder / RUNS / outcome.cell.folder)
@@ -135,14 +135,14 @@ class Runner:
             self._store.leave(outcome)
         return outcome
 
-    def _run(self, cell: Cell) -> Outcome:
+    def _run(self, cell: Cell) -> EpisodeOutcome:
         """One episode; whatever goes wrong around its process is why it is not finished."""
         try:
             return self._carried_out(cell)
         except (OSError, Proc3sError) as error:
             return Unfinished(cell, "crashed", str(error))
 
-    def _carried_out(self, cell: Cell) -> Outcome:
+    def _carried_out(self, cell: Cell) -> EpisodeOutcome:
         """One episode in a process of its own, begun anew or gone on with."""
         run = self._store.folder / RUNS / cell.folder
         if (ended := _ended(run)) is not None:
@@ -151,7 +151,7 @@ class Runner:
         if not going_on and run.exists():
             shutil.rmtree(run)  # a run that was killed before it asked anything
         # -P: what lies in the working directory must not hide a package
-        command = [sys.executable, "-P", "-m", "proc3s.suites.child", "run"]
+        command = [sys.executable, "-P", "-m", "proc3s.cli.episode_process", "run"]
         command += self._command(cell, run, going_on)
         with self._lock:
             if self._stopped:
@@ -184,7 +184,7 @@ class Runner:
             yield from ("--max-cost", repr(self._allotted[cell] + (spent_on(run) or 0.0)))
         yield "--json"
 
-    def _outcome(self, cell: Cell, run: Path, output: str, complaints: str, code: int) -> Outcome:
+    def _outcome(self, cell: Cell, run: Path, output: str, complaints: str, code: int) -> EpisodeOutcome:
         try:
             summary = Summary.model_validate_json(output)
         except ValueError:

@@ -13,9 +13,9 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from proc3s.errors import UsageError
+from proc3s.specs.suite import Cell
 from proc3s.suites.episode import Episode
 from proc3s.suites.outcomes import Unfinished
-from proc3s.suites.spec import Cell
 
 FILE = "episodes.sqlite"
 PATIENCE = 30.0
@@ -27,7 +27,7 @@ _IS = "task = ? AND method = ? AND preset = ? AND seed = ?"
 _ERROR = "json_extract(document, '$.error')"
 
 
-class Verdict(NamedTuple):
+class JudgeVerdict(NamedTuple):
     """What a person says of an outcome."""
 
     reached: bool
@@ -99,11 +99,11 @@ class Store:
         with self._open() as table:
             table.execute("INSERT OR REPLACE INTO verdicts VALUES (?, ?, ?, ?, ?, ?, ?)", row)
 
-    def verdicts(self) -> dict[Cell, Verdict]:
+    def verdicts(self) -> dict[Cell, JudgeVerdict]:
         """What people said."""
         with self._open() as table:
             rows = table.execute("SELECT * FROM verdicts").fetchall()
-        return {Cell(*row[:4]): Verdict(bool(row[4]), row[5], row[6]) for row in rows}
+        return {Cell(*row[:4]): JudgeVerdict(bool(row[4]), row[5], row[6]) for row in rows}
 
     def facts(self) -> dict[str, Any]:
         """What is known of the suite: its spec, options and versions, by name."""

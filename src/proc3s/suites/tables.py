@@ -19,7 +19,7 @@ STALE = "Success with answers to earlier prompts, %"
 
 
 @dataclass(frozen=True)
-class Table:
+class SuiteTable:
     """A title, the heads of the columns, the lines, and what to know about them."""
 
     title: str
@@ -38,7 +38,7 @@ MEANS: tuple[tuple[str, str, str, Read], ...] = (
 """Quantity in the published figures, title, format, and where it stands in a result."""
 
 
-def tables(results: Results, figures: Figures) -> Iterator[Table]:
+def tables(results: Results, figures: Figures) -> Iterator[SuiteTable]:
     """All tables, that of success first."""
     yield success_table(results, figures)
     yield outcome_table(results)
@@ -50,7 +50,7 @@ def tables(results: Results, figures: Figures) -> Iterator[Table]:
     yield _violations(results)
 
 
-def success_table(results: Results, figures: Figures) -> Table:
+def success_table(results: Results, figures: Figures) -> SuiteTable:
     """Success rates with Wilson intervals; none is made of authored answers."""
     lines = []
     for line in results.lines:
@@ -62,10 +62,10 @@ def success_table(results: Results, figures: Figures) -> Table:
         f"significantly worse than the best of its column (one-tailed z-test at {ALPHA}, as in the paper). "
         "From answers written by hand no rate is computed. Where a person has judged, the person counts."
     )
-    return Table("Success, %", ("method", *results.spec.tasks), tuple(lines), note)
+    return SuiteTable("Success, %", ("method", *results.spec.tasks), tuple(lines), note)
 
 
-def outcome_table(results: Results) -> Table:
+def outcome_table(results: Results) -> SuiteTable:
     """How many episodes ended how; a kind that is not usual has a column where there is one."""
     counts = {line: Counter(results.words(line)) for line in results.lines}
     there = sum(counts.values(), Counter[Word]())
@@ -76,7 +76,7 @@ def outcome_table(results: Results) -> Table:
         f"({', '.join(word for word in words if word in UNFINISHED)}) is in no rate, and is tried again by "
         "--resume."
     )
-    return Table("Outcomes", ("method", *words), lines, note)
+    return SuiteTable("Outcomes", ("method", *words), lines, note)
 
 
 def _success(results: Results, line: Line, task: str) -> str:
@@ -119,7 +119,9 @@ def _mean(form: str, mean: float, std: float | None) -> str:
     return form.format(mean) + (f" ± {form.format(std)}" if std is not None else "")
 
 
-def _means(results: Results, figures: Figures, quantity: str, title: str, form: str, read: Read) -> Table:
+def _means(
+    results: Results, figures: Figures, quantity: str, title: str, form: str, read: Read
+) -> SuiteTable:
     """Mean and standard deviation of a figure that every episode has."""
     lines: list[tuple[str, ...]] = []
     for line in results.lines:
@@ -128,14 +130,14 @@ def _means(results: Results, figures: Figures, quantity: str, title: str, form: 
         lines.append((results.label(line), *cells))
         lines += _published(results, figures, quantity, line, form)
     note = "Mean ± standard deviation (of the sample) over seeds, successful or not."
-    return Table(title, ("method", *results.spec.tasks), tuple(lines), note)
+    return SuiteTable(title, ("method", *results.spec.tasks), tuple(lines), note)
 
 
 def _values(results: Sequence[Result], read: Read) -> list[float]:
     return [value for value in map(read, results) if value is not None]
 
 
-def _left_out(results: Results) -> Table:
+def _left_out(results: Results) -> SuiteTable:
     """What the paper's tables do not say."""
     lines = []
     for line in results.lines:
@@ -157,7 +159,9 @@ def _left_out(results: Results) -> Table:
         "Solved: the world accepted a plan. Tokens and cost are of all calls of an episode that is finished, "
         "tokens as a mean, cost as a sum; what nobody said is `?`, and a sum with such a part is `at least`."
     )
-    return Table("Beside that", (*head, "tokens asked", "tokens answered", "cost, $"), tuple(lines), note)
+    return SuiteTable(
+        "Beside that", (*head, "tokens asked", "tokens answered", "cost, $"), tuple(lines), note
+    )
 
 
 def _mean_of(results: Sequence[Result], form: str, read: Read) -> str:
@@ -169,7 +173,7 @@ def _mean_of(results: Sequence[Result], form: str, read: Read) -> str:
     return text if len(values) == len(results) else f"{text} (of {len(values)} known)"
 
 
-def _violations(results: Results) -> Table:
+def _violations(results: Results) -> SuiteTable:
     """How many samples failed first by what."""
     counts = {line: Counter[str]() for line in results.lines}
     for line in results.lines:
@@ -177,7 +181,7 @@ def _violations(results: Results) -> Table:
             counts[line].update(result.episode.violations)
     kinds = [kind for kind, _ in sum(counts.values(), Counter[str]()).most_common()]
     lines = tuple((results.label(line), *(str(counts[line][kind]) for kind in kinds)) for line in counts)
-    return Table("First violations of samples", ("method", *kinds), lines)
+    return SuiteTable("First violations of samples", ("method", *kinds), lines)
 
 
 def provenance(results: Results) -> list[str]:

@@ -3,10 +3,11 @@
 import numpy as np
 import pytest
 
-from proc3s.conformance.stepping import margins, screens
-from proc3s.conformance.subject import Subject
-from proc3s.constraints import check as check_step
-from proc3s.registry import Registry, open_registry
+from proc3s.checks.stepping import margins, screens
+from proc3s.checks.subject import Subject
+from proc3s.domain.margins import check as check_step
+from proc3s.domain.world import make_world
+from proc3s.plugins.registry import Registry, open_registry
 from proc3s.testing.domains import once
 
 
@@ -38,7 +39,7 @@ class ConstraintTests:
     ) -> None:
         """A negative margin beyond the tolerance is a violation with a text, and nothing else is."""
         spec = subject.spec.constraints[constraint_name]
-        world = subject.domain.make_world()
+        world = make_world(subject.domain)
         for answer, plan in subject.plans(4):
             world.reset(answer.problem.initial)
             for step, action in enumerate(plan):

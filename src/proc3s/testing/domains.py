@@ -5,9 +5,9 @@ The checks are those of `proc3s check`.
 
 import pytest
 
-from proc3s.conformance.checks import CHECKS, Check, findings
-from proc3s.conformance.subject import Subject
-from proc3s.registry import Registry, open_registry
+from proc3s.checks.domain import CHECKS, Check, findings
+from proc3s.checks.subject import Subject
+from proc3s.plugins.registry import Registry, open_registry
 
 
 def once(tests: object, registry: Registry, name: str, seconds: float = 20.0) -> Subject:

@@ -8,8 +8,8 @@ from typing import TypeAlias
 import pytest
 
 from proc3s import Executor, Plan, Problem, Rollouts, Trial
-from proc3s.conformance.subject import Subject
-from proc3s.registry import open_registry
+from proc3s.checks.subject import Subject
+from proc3s.plugins.registry import open_registry
 
 Work: TypeAlias = tuple[Problem, list[Plan], list[Trial]]
 

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 from proc3s import Action, FloatArray, Solver, Space, Trial, Violation
-from proc3s.samplers import ContinuousSampler, DiscreteSampler
+from proc3s.domain.samplers import ContinuousSampler, DiscreteSampler
 
 MakeSolver: TypeAlias = Callable[[Space, int, np.random.Generator], Solver]
-Verdict: TypeAlias = Callable[[FloatArray, int], Trial]
+TrialOf: TypeAlias = Callable[[FloatArray, int], Trial]
 """The trial of one point u of the cube, shape (dim,), with the index of the sample."""
 
 
@@ -94,7 +94,7 @@ def hopeless(dim: int) -> Toy:
     return toy(margins, [0] * dim)
 
 
-def search(solver: Solver, verdict: Verdict, budget: int) -> Iterator[Trial]:
+def search(solver: Solver, verdict: TrialOf, budget: int) -> Iterator[Trial]:
     """The trials of a search, up to the first accepted one; checks every batch that the solver asks for."""
     taken = 0
     while taken < budget:
@@ -129,7 +129,7 @@ def solution(make_solver: MakeSolver, problem: Toy, budget: int, seed: int = 0) 
 
 
 def samples(
-    make_solver: MakeSolver, space: Space, verdict: Verdict, budget: int, seed: int = 0
+    make_solver: MakeSolver, space: Space, verdict: TrialOf, budget: int, seed: int = 0
 ) -> FloatArray:
     """Everything that a search tries, shape (n, dim)."""
     solver = make_solver(space, budget, np.random.default_rng(seed))

@@ -1,0 +1,1 @@
+"""What a pick and a place are, whatever engine carries them out."""

@@ -1,0 +1,94 @@
+"""What touches what: contacts after a collision detection, and clearances, with the names of both bodies."""
+
+from collections.abc import Iterable
+from typing import Any, NamedTuple
+
+from proc3s_tabletop.bullet.simulation import Things
+from proc3s_tabletop.telemetry import Clearance, Vector, least
+
+# Where PyBullet's contact points have what.
+BODY_B, LINK_A, LINK_B, NORMAL, DISTANCE, FORCE = 2, 3, 4, 7, 8, 9
+
+_TOUCHING = 0.001
+"""Bodies nearer than this hold one another, m."""
+
+
+class Touch(NamedTuple):
+    """A contact of the held object, and the direction in which the other body pushes it."""
+
+    clearance: Clearance
+    normal: Vector
+
+
+def robot_contact(scene: Things, gripped: str | None = None) -> Clearance | None:
+    """The deepest contact of the robot, with itself too; the hand may touch the object it grips."""
+    depth, points = -scene.recipe.penetration, scene.client.getContactPoints(scene.robot.id)
+    return least([_robot_contact(scene, p, gripped) for p in points if p[DISTANCE] < depth])
+
+
+def _robot_contact(scene: Things, point: Any, gripped: str | None) -> Clearance | None:
+    robot, other = scene.robot, point[BODY_B]
+    if other == robot.id:
+        return Clearance(point[DISTANCE], robot.part(point[LINK_A]), robot.part(point[LINK_B]))
+    if scene.names[other] == gripped and point[LINK_A] in robot.hand_links:
+        return None
+    return Clearance(point[DISTANCE], robot.part(point[LINK_A]), scene.names[other])
+
+
+def held_touches(scene: Things, name: str) -> list[Touch]:
+    """What an object in hand touches, the robot apart."""
+    points = scene.client.getContactPoints(scene.bodies[name])
+    return [
+        Touch(Clearance(p[DISTANCE], name, scene.names[p[BODY_B]]), p[NORMAL])
+        for p in points
+        if p[BODY_B] != scene.robot.id and p[DISTANCE] < -scene.recipe.touch
+    ]
+
+
+def deepest(touches: list[Touch]) -> Clearance | None:
+    """The deepest contact."""
+    return least([touch.clearance for touch in touches])
+
+
+def grip_force(scene: Things, name: str) -> float:
+    """Normal force of the side of the hand that presses an object less, newtons."""
+    points = scene.client.getContactPoints(scene.robot.id, scene.bodies[name])
+    return min(float(sum(p[FORCE] for p in points if p[LINK_A] in side)) for side in scene.robot.sides)
+
+
+def hand_clearances(scene: Things, gripped: str | None = None) -> dict[str, Clearance]:
+    """The smallest distance of the robot to everything near but the gripped object, by name."""
+    robot, found = scene.robot, {}
+    for other, name in scene.names.items():
+        if name != gripped:
+            points = scene.client.getClosestPoints(robot.id, other, scene.recipe.near)
+            clearance = least(
+                [
+                    Clearance(p[DISTANCE], robot.part(p[LINK_A]), name)
+                    for p in points
+                    if p[LINK_A] > robot.base
+                ]
+            )
+            if clearance:
+                found[name] = clearance
+    return found
+
+
+def company(scene: Things, names: Iterable[str]) -> set[str]:
+    """The objects among `names`, and all that touch them, directly or through others.
+
+    Boxes that only just meet have no contact points in PyBullet, so whatever is within 1 mm counts.
+    """
+    found: set[str] = set()
+    todo = [name for name in names if name in scene.bodies]
+    while todo:
+        name = todo.pop()
+        if name not in found:
+            found.add(name)
+            body = scene.bodies[name]
+            todo += [
+                other
+                for other, id_ in scene.bodies.items()
+                if id_ != body and scene.client.getClosestPoints(body, id_, _TOUCHING)
+            ]
+    return found

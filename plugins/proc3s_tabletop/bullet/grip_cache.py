@@ -1,0 +1,126 @@
+"""The workbench: short simulations with a few things, carried out once for every way these things lie."""
+
+import dataclasses
+import functools
+from collections.abc import Iterable, Iterator, Mapping
+from typing import NamedTuple, TypeAlias
+
+from proc3s_tabletop.bullet.grip_test import Grip, GripSetup, try_grip, upright
+from proc3s_tabletop.bullet.hand import FloatingHand
+from proc3s_tabletop.bullet.settle import settle
+from proc3s_tabletop.bullet.simulation import Things
+from proc3s_tabletop.objects.body import Body
+from proc3s_tabletop.robot.frames import Frame, rounded
+from proc3s_tabletop.robot.settings import ReferenceSettings
+
+MOST = 1024
+"""Outcomes of each sort that are remembered; the one not used for longest goes."""
+
+DIGITS = 6
+"""Where things lie is rounded to so many, in m and in parts of a quaternion."""
+
+ALOFT = Frame((0.0, 0.0, 1.0), (1.0, 0.0, 0.0, 0.0))
+"""Where the hand touches nothing."""
+
+Lies: TypeAlias = tuple[tuple[Body, Frame], ...]
+"""Bodies and where they are."""
+
+
+class Rest(NamedTuple):
+    """Where things come to rest, in the order in which they were given, and whether they did in time."""
+
+    frames: tuple[Frame, ...]
+    at_rest: bool
+
+
+class GripSimulator:
+    """Simulates a few things on a table under a hand without an arm, always in the same place.
+
+    Among the bodies of one scene the outcome is a function of what is asked alone, so it is remembered:
+    whichever of them are meant, the first ones of the same sort stand in for them. Close it after use.
+    """
+
+    def __init__(self, bodies: Mapping[str, Body], recipe: ReferenceSettings) -> None:
+        self._bodies, self._recipe = bodies, recipe
+        self._made: Things | None = None
+        self._known_grip = functools.lru_cache(MOST)(self._grip)
+        self._known_rest = functools.lru_cache(MOST)(self._rest)
+
+    def grip(self, tool: Frame, lies: Lies, speed: float) -> Grip:
+        """What comes of closing the hand, its tool0 at a frame, on the first of the things that lie there."""
+        there = upright(tool)
+        found = self._known_grip(GripSetup(speed, self._moved(there, tool), self._all_moved(there, lies)))
+        return dataclasses.replace(found, lies=self._back(there, found.lies))
+
+    def rest(self, lies: Lies) -> Rest:
+        """Where things come to rest that nothing holds any more."""
+        x, y, _ = lies[0][1].position
+        there = Frame((-x, -y, 0.0), (0.0, 0.0, 0.0, 1.0))
+        found = self._known_rest(self._all_moved(there, lies))
+        return found._replace(frames=self._back(there, found.frames))
+
+    def _grip(self, setup: GripSetup) -> Grip:
+        names = list(self._stand_ins(setup.lies))
+        things, robot = self._things, self._hand
+        robot.recipe = dataclasses.replace(self._recipe, speed=setup.speed)
+        self._lay(names, setup.lies, setup.tool)
+        return try_grip(things, names)
+
+    def _rest(self, lies: Lies) -> Rest:
+        names = list(self._stand_ins(lies))
+        self._lay(names, lies, ALOFT)
+        self._things.set_iterations(self._recipe.iterations)
+        at_rest = settle(self._things, names)
+        return Rest(tuple(self._things.frame(name) for name in names), at_rest)
+
+    @property
+    def _things(self) -> Things:
+        """The simulated bench, made when it is first needed."""
+        if self._made is None:
+            self._made = Things(self._bodies, self._recipe, FloatingHand)
+        return self._made
+
+    @property
+    def _hand(self) -> FloatingHand:
+        hand = self._things.robot
+        assert isinstance(hand, FloatingHand)
+        return hand
+
+    def _lay(self, names: Iterable[str], lies: Lies, tool: Frame) -> None:
+        """Put hand and things where they are to be, so that nothing earlier matters."""
+        self._hand.put(*ALOFT)
+        self._hand.put_fingers(0.0)
+        self._hand.drive_fingers(0.0)
+        self._things.clear()
+        self._hand.put(*tool)
+        self._things.bring_back({name: frame for name, (_, frame) in zip(names, lies, strict=True)})
+
+    def _stand_ins(self, lies: Lies) -> Iterator[str]:
+        """For everything that lies there the first body of the same sort that is not taken yet."""
+        free = dict(self._bodies)
+        for wanted, _ in lies:
+            name = next(name for name, body in free.items() if body == wanted)
+            del free[name]
+            yield name
+
+    def _all_moved(self, there: Frame, lies: Lies) -> Lies:
+        return tuple((body, self._moved(there, frame)) for body, frame in lies)
+
+    def _moved(self, there: Frame, frame: Frame) -> Frame:
+        """A frame after a transform, rounded; of the two quaternions of a turn that with a positive start."""
+        moved = Frame(*self._things.client.multiplyTransforms(*there, *frame))
+        position, rotation = rounded(moved, DIGITS, DIGITS)
+        first = next(v for v in rotation if v)
+        x, y, z, w = (v if first > 0 else -v for v in rotation)
+        return Frame(position, (x, y, z, w))
+
+    def _back(self, there: Frame, frames: Iterable[Frame]) -> tuple[Frame, ...]:
+        client = self._things.client
+        back = client.invertTransform(*there)
+        return tuple(Frame(*client.multiplyTransforms(*back, *frame)) for frame in frames)
+
+    def close(self) -> None:
+        """Give up the simulator."""
+        if self._made:
+            self._made.close()
+            self._made = None

@@ -1,0 +1,28 @@
+"""Rays between the fingers: how much of the pads an object covers."""
+
+import numpy as np
+
+from proc3s_tabletop.bullet.simulation import Things
+
+INSIDE = 0.85
+"""Rays run between the pads from this share of their distance, so that they start off the pads."""
+
+
+def cover(things: Things) -> dict[str, float]:
+    """The share of the grid of rays between the pads that meets each object, by name."""
+    hits = [hit[0] for hit in things.client.rayTestBatch(*_rays(things))]
+    return {name: hits.count(body) / len(hits) for name, body in things.bodies.items()}
+
+
+def _rays(things: Things) -> tuple[list[list[float]], list[list[float]]]:
+    """Where the rays between the pads start and end, each way over the pads' width and along the fingers."""
+    recipe, robot = things.recipe, things.robot
+    left, right = robot.pads()
+    point, along = robot.grasp_point()
+    middle = (left + right) / 2
+    middle = middle + along * ((point - middle) @ along)
+    across = np.cross(along, right - left)
+    across /= np.linalg.norm(across)
+    half = (left - right) / 2 * INSIDE
+    grid = [middle + across * w + along * h for h in recipe.cover_along for w in recipe.cover_across]
+    return [(x + half).tolist() for x in grid], [(x - half).tolist() for x in grid]

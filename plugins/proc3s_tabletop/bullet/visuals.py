@@ -1,0 +1,62 @@
+"""How bodies look: what the renderer draws of them, and the colours that names stand for."""
+
+import math
+from itertools import pairwise
+from pathlib import Path
+from typing import TypeAlias
+
+from proc3s_tabletop.bullet.client import Client
+from proc3s_tabletop.objects.shapes import Bowl, Shape
+
+Color: TypeAlias = tuple[float, float, float, float]
+
+SEGMENTS = 48
+"""Of a bowl around its axis."""
+UNKNOWN = (0.6, 0.6, 0.6, 1.0)
+"""For a colour that nobody knows."""
+
+
+def color_of(name: str) -> Color:
+    """RGBA of a colour by its name; pure colours are toned down where matplotlib has a softer one."""
+    from matplotlib.colors import is_color_like, to_rgba
+
+    candidates = ["gold"] if name == "yellow" else [f"tab:{name}", name]
+    return next((to_rgba(candidate) for candidate in candidates if is_color_like(candidate)), UNKNOWN)
+
+
+def create(shape: Shape, client: Client, folder: Path, color: Color) -> int:
+    """The PyBullet id of a body that is only to be looked at; files that it is read from go to `folder`."""
+    if isinstance(shape, Bowl):
+        # Its pieces have corners enough for a hull, but not the faces of one.
+        path = folder / "bowl_surface.obj"
+        path.write_text(_turned(_profile(shape)), encoding="ascii")
+        surface = client.createVisualShape(client.GEOM_MESH, fileName=str(path), rgbaColor=color)
+        return int(client.createMultiBody(0, -1, surface))
+    body = int(client.createMultiBody(0, shape.collision(client, folder), -1))
+    client.changeVisualShape(body, -1, rgbaColor=color)
+    return body
+
+
+def _profile(bowl: Bowl) -> list[tuple[float, float]]:
+    """Radii and heights around the cut of a bowl, from the middle of its foot over the rim to its floor."""
+    low, high, floor = -bowl.height / 2, bowl.height / 2, bowl.wall - bowl.height / 2
+    foot, rim, wall = bowl.foot_radius, bowl.rim_radius, bowl.wall
+    return [(0, low), (foot, low), (rim, high), (rim - wall, high), (foot - wall, floor), (0, floor)]
+
+
+def _turned(profile: list[tuple[float, float]]) -> str:
+    """The surface of a profile turned about z as an OBJ file, every facet with its own normal."""
+    turns = [2 * math.pi * k / SEGMENTS for k in range(SEGMENTS + 1)]
+    facets = [_facet(*edge, *turn) for edge in pairwise(profile) for turn in pairwise(turns)]
+    faces = ["f " + " ".join(f"{4 * k + i}//{k + 1}" for i in (1, 2, 3, 4)) for k in range(len(facets))]
+    return "\n".join([*facets, *faces]) + "\n"
+
+
+def _facet(low: tuple[float, float], high: tuple[float, float], start: float, end: float) -> str:
+    """Four corners and their normal, from two points of a profile and two turns."""
+    (r0, z0), (r1, z1) = low, high
+    corners = [(r0, start, z0), (r0, end, z0), (r1, end, z1), (r1, start, z1)]
+    lines = [f"v {r * math.cos(t):.6f} {r * math.sin(t):.6f} {z:.6f}" for r, t, z in corners]
+    middle, length = (start + end) / 2, math.hypot(r1 - r0, z1 - z0)
+    out, up = (z1 - z0) / length, (r0 - r1) / length
+    return "\n".join([*lines, f"vn {out * math.cos(middle):.5f} {out * math.sin(middle):.5f} {up:.5f}"])

@@ -1,0 +1,1 @@
+"""Bodies that a `domain.yaml` may name."""

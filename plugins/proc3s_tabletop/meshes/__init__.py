@@ -1,0 +1,1 @@
+"""From a mesh file to convex pieces at rest on the table."""

@@ -1,0 +1,1 @@
+"""Shapes as numbers, without an engine."""

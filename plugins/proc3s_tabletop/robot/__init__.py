@@ -1,0 +1,1 @@
+"""The arm and the hand as numbers."""

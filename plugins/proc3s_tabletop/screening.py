@@ -1,9 +1,0 @@
-"""The screens that come with the table-top's reference world, the cheapest first."""
-
-from proc3s import ScreenSpec
-
-SCREENS = (
-    ScreenSpec(name="geometry", target="proc3s_tabletop.screens:geometry"),
-    ScreenSpec(name="grasps", target="proc3s_tabletop.grasp_screen:grasps"),
-    ScreenSpec(name="reach", target="proc3s_tabletop.screens:reach"),
-)

@@ -1,0 +1,1 @@
+"""Cheap tests of many plans, before a world is asked."""

@@ -1,0 +1,95 @@
+"""A judge that lets time pass: what rests on what, and whether it stays."""
+
+import itertools
+from collections.abc import Mapping
+from typing import Any
+
+from proc3s import Plan, Score
+from proc3s_tabletop.bullet.grip_cache import ALOFT
+from proc3s_tabletop.bullet.hand import FloatingHand
+from proc3s_tabletop.bullet.simulation import Things
+from proc3s_tabletop.catalogue.body_specs import bodies_of
+from proc3s_tabletop.constraints import called
+from proc3s_tabletop.objects.extents import extent
+from proc3s_tabletop.robot import frames as poses
+from proc3s_tabletop.robot.frames import Frame
+from proc3s_tabletop.robot.settings import LEVER, ReferenceSettings
+from proc3s_tabletop.tasks.selection import select, selector
+from proc3s_tabletop.telemetry import TABLE, displacement
+
+LOW = 0.003
+"""What reaches nearer to the table than this lies on it, m."""
+
+
+def on_another(
+    state: Any,
+    plan: Plan,
+    what: Mapping[str, Any] | None = None,
+    below: Mapping[str, Any] | None = None,
+    seconds: float = 1.0,
+    most: float = 0.005,
+    bodies: Mapping[str, Any] | None = None,
+) -> Score:
+    """One of `what` rests on one of `below`, everything by default, and does not touch the table.
+
+    Everything is let go for `seconds` in a simulation; the object must move by at most `most` (m; a turn
+    counts 40 mm a rad) and then touch the other and not the table.
+    """
+    known = bodies_of(bodies)
+    objects: Mapping[str, Any] = state.objects
+    spaces = {name: extent(known[o.category], o.pose) for name, o in objects.items()}
+    upper = select(objects, selector(what, "on_another.what"))
+    lower = select(objects, selector(below, "on_another.below"))
+    high = [name for name in upper if spaces[name].bottom > LOW]
+    if not high:
+        return Score(False, "everything lies on the table")
+    things = Things(
+        {name: known[o.category] for name, o in objects.items()}, ReferenceSettings(), FloatingHand
+    )
+    try:
+        before = {name: poses.frame(o.pose) for name, o in objects.items()}
+        _let_go(things, before, seconds)
+        return _first(things, before, high, [*lower], most, objects)
+    finally:
+        things.close()
+
+
+def _let_go(things: Things, frames: Mapping[str, Frame], seconds: float) -> None:
+    things.robot.put(*ALOFT)  # type: ignore[attr-defined]
+    things.clear()
+    things.bring_back(frames)
+    things.set_iterations(things.recipe.iterations)
+    things.tick(round(seconds / things.recipe.tick))
+
+
+def _first(
+    things: Things,
+    before: Mapping[str, Frame],
+    high: list[str],
+    lower: list[str],
+    most: float,
+    objects: Mapping[str, Any],
+) -> Score:
+    """The first that rests on another; else what is wrong with each."""
+    reasons = []
+    for name in high:
+        moved = displacement(name, before[name], things.frame(name))
+        way = moved.shift + LEVER * moved.turned
+        touched = _touched(things, name)
+        on = [other for other in lower if other in touched]
+        if way > most:
+            reasons.append(f"{called(objects, name)} moves by {1000 * way:.0f} mm when it is let go")
+        elif TABLE in touched:
+            reasons.append(f"{called(objects, name)} touches the table")
+        elif not on:
+            reasons.append(f"{called(objects, name)} rests on nothing")
+        else:
+            return Score(True, f"{called(objects, name)} rests on {called(objects, on[0])}")
+    return Score(False, "; ".join(reasons))
+
+
+def _touched(things: Things, name: str) -> set[str]:
+    """What an object touches, by name."""
+    client, body = things.client, things.bodies[name]
+    others = itertools.chain([things.table], things.bodies.values())
+    return {things.names[other] for other in others if other != body and client.getContactPoints(body, other)}

@@ -1,0 +1,1 @@
+"""The second stage measured without an LLM."""

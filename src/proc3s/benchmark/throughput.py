@@ -1,0 +1,156 @@
+"""The benchmark of the second stage: fixed programs, every way of searching them, paired by seed. No LLM.
+
+A domain brings its programs as `bench/TASK.NAME.py`; a first line `# scene: count=100` sets options of the
+scene generator.
+"""
+
+import dataclasses
+import itertools
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from proc3s.benchmark.cases import Case
+from proc3s.benchmark.measurement import PLAIN, SCREENED, Measurement, Meter, SearchVariant
+from proc3s.domain.samplers import Space
+from proc3s.planning.grounding import open_sketch
+from proc3s.planning.options import RunOptions
+from proc3s.planning.parts import Setup
+from proc3s.planning.setup import make_executor, make_problem, make_setup
+from proc3s.plugins.registry import Registry
+from proc3s.search.evaluator import Evaluator
+from proc3s.search.executor import Executor
+from proc3s.search.influence import influence
+from proc3s.search.screen_audit import Audit
+from proc3s.search.search import Search
+from proc3s.search.sketch import Sketch
+from proc3s.search.trial import Trial
+
+_BATCHES = (64, 192, 768, 1024)
+"""Samples of the batches of a throughput run; the last again and again."""
+
+
+_ENOUGH = 8.0
+"""CPU seconds after which a throughput run begins no further batch: in a simulator few plans say enough."""
+
+
+_AUDITED = 50
+
+
+_WARMING = 6
+"""Plans before the first measurement: enough for every worker to start."""
+
+
+class Bench:
+    """Measures cases; a context manager. Every way keeps its executor, so workers start once and not in a
+    measurement.
+
+    `samples` replaces the budget of the tasks.
+    """
+
+    def __init__(self, registry: Registry, ways: Sequence[SearchVariant], samples: int | None = None) -> None:
+        self._registry = registry
+        self._ways = (PLAIN, *ways)
+        self._samples = samples
+        kinds = {(way.executor, way.jobs) for way in self._ways}
+        self._executors: dict[tuple[str, int], Executor] = {
+            (name, jobs): make_executor(registry, name, jobs) for name, jobs in sorted(kinds)
+        }
+        self._warm: set[str] = set()
+
+    def __enter__(self) -> "Bench":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        for executor in self._executors.values():
+            executor.close()
+
+    def search(self, case: Case, seed: int) -> Iterator[Measurement]:
+        """Every way on one scene, the plain one first."""
+        with open_sketch(self._setup(case, seed, PLAIN)) as opened:
+            for way in self._ways:
+                setup = self._setup(case, seed, way)
+                if way.name not in self._warm:
+                    _warm_up(setup, opened.sketch)
+                    self._warm.add(way.name)
+                yield _search(case, way, setup, opened.sketch)
+
+    def throughput(self, case: Case, seed: int, samples: int) -> Iterator[Measurement]:
+        """Uniform samples in large batches, whatever is accepted among them: plain, and screened.
+
+        Of what the screens reject a few are put to the world afterwards, which no time counts.
+        """
+        for way in (PLAIN, SCREENED):
+            yield self.stream(case, seed, way, samples)
+
+    def stream(self, case: Case, seed: int, way: SearchVariant, samples: int) -> Measurement:
+        """The same in one of these ways; `audited` and `wrong` tell how the screens did."""
+        with open_sketch(self._setup(case, seed, PLAIN)) as opened:
+            return _stream(case, way, self._setup(case, seed, way), opened.sketch, samples)
+
+    def _setup(self, case: Case, seed: int, way: SearchVariant) -> Setup:
+        options = RunOptions.model_validate(
+            {
+                "task": case.task,
+                "solver": way.solver,
+                "preset": "paper",
+                "seed": seed,
+                "samples": self._samples,
+                "domain_options": case.scene,
+                "check_goal": False,
+            }
+        )
+        problem = dataclasses.replace(
+            make_problem(self._registry, options, goal_needed=False),
+            program=case.program,
+            screens="all" if way.saving else "none",
+            prefixes=way.saving,
+        )
+        setup = make_setup(self._registry, options, problem)
+        return dataclasses.replace(setup, executor=self._executors[way.executor, way.jobs])
+
+
+def _warm_up(setup: Setup, sketch: Sketch) -> None:
+    """Import what solver, world and workers need: a few plans, and a solver whose samples all fail."""
+    u = np.random.default_rng(0).random((_WARMING, sketch.space.dim))
+    list(Evaluator(setup.problem, sketch, setup.executor).stream(u))
+    solver = setup.make_solver(_space(sketch), setup.problem.samples, np.random.default_rng(0))
+    for _ in range(8):
+        asked = solver.ask(setup.problem.samples)
+        solver.tell([Trial(u=tuple(row)) for row in asked.tolist()])
+
+
+def _space(sketch: Sketch) -> Space:
+    return dataclasses.replace(sketch.space, probe=lambda: influence(sketch))
+
+
+def _search(case: Case, way: SearchVariant, setup: Setup, sketch: Sketch) -> Measurement:
+    problem = setup.problem
+    meter = Meter(problem, setup.executor, sketch)
+    space = _space(sketch)
+    rng = np.random.default_rng(np.random.SeedSequence(problem.seed, spawn_key=(0,)))
+    solver = setup.make_solver(space, problem.samples, rng)
+    found = Search(space, solver, meter.evaluator)
+    found.advance(problem.samples)
+    if found.broken_off is not None:
+        raise found.broken_off
+    stopped = found.trials[-1].error if found.alike else found.halted
+    error = str(stopped) if stopped else None
+    return meter.read(case, way, found.solution is not None, error)
+
+
+def _stream(case: Case, way: SearchVariant, setup: Setup, sketch: Sketch, samples: int) -> Measurement:
+    problem, executor = setup.problem, setup.executor
+    u = np.random.default_rng(problem.seed).random((samples, sketch.space.dim))
+    list(Evaluator(problem, sketch, executor).stream(u[:64]))
+    audit = Audit(_AUDITED, problem.seed)
+    meter = Meter(problem, executor, sketch, audit)
+    at = accepted = 0
+    sizes = itertools.chain(_BATCHES, itertools.repeat(_BATCHES[-1]))
+    while at < samples and sum(meter.cpu().values()) < _ENOUGH:
+        batch = u[at : at + next(sizes)]
+        accepted += sum(trial.accepted for trial in meter.evaluator.stream(batch))
+        at += len(batch)
+    measured = meter.read(case, way, accepted > 0, None)
+    found = audit.check(problem, executor)
+    return dataclasses.replace(measured, audited=found.checked, wrong=len(found.wrong))

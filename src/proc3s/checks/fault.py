@@ -1,0 +1,31 @@
+"""What a check says, before it is put into words for a person."""
+
+import inspect
+import re
+from dataclasses import dataclass
+
+from proc3s.errors import SpecError
+from proc3s.specs.base import Target
+
+_TARGET = re.compile(r"[\w.]+:\w+")
+
+
+@dataclass(frozen=True)
+class Fault:
+    """What is wrong; a note where `error` is not set. `where` and `mend` replace what the check says."""
+
+    text: str
+    where: str = ""
+    mend: str = ""
+    error: bool = True
+
+
+def located(where: str) -> str:
+    """`file:line` of what an import string names; anything else as it is."""
+    if not _TARGET.fullmatch(where):
+        return where
+    try:
+        named = Target(target=where).load()
+        return f"{inspect.getsourcefile(named)}:{inspect.getsourcelines(named)[1]}"
+    except (SpecError, TypeError, OSError):
+        return where

@@ -1,0 +1,160 @@
+"""The domain under examination: its scenes, and plans to try it with, made once."""
+
+import dataclasses
+import functools
+import json
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from proc3s.domain.domain import Domain
+from proc3s.domain.plan_batch import PlanBatch
+from proc3s.domain.prelude import setup_code
+from proc3s.domain.source_text import source_text
+from proc3s.domain.values import Plan
+from proc3s.errors import Proc3sError
+from proc3s.planning.options import RunOptions
+from proc3s.planning.setup import make_problem
+from proc3s.plugins.registry import Registry
+from proc3s.prompts.examples import example_turns
+from proc3s.prompts.extract import extract_program
+from proc3s.sandbox import BoxedSketch, Program, SketchError
+from proc3s.search.problem import Problem
+from proc3s.specs.parts import MethodSpec
+from proc3s.textfiles import read_text
+
+SEEDS = 4
+"""Scenes of every task that are looked at."""
+SAMPLES = 48
+"""Samples of every program that plans are taken from."""
+
+
+@dataclass(frozen=True)
+class BundledAnswer:
+    """A program that comes with the domain, for a task or an example."""
+
+    name: str
+    path: Path
+    source: str
+    kind: str
+    """`sketch`, `program` or `plan`, as methods call it."""
+    problem: Problem
+
+
+class Subject:
+    """A domain with what its checks need in common; `seconds` bounds the search for a screen's mistakes."""
+
+    def __init__(self, registry: Registry, name: str, seconds: float = 20.0) -> None:
+        self.registry, self.seconds = registry, seconds
+        self.domain: Domain = registry.domain(name)
+        self.spec = self.domain.spec
+        self.file = str(self.spec.folder / "domain.yaml") if self.spec.folder else f"domain {name}"
+
+    @property
+    def methods(self) -> list[MethodSpec]:
+        """All methods that are installed."""
+        return list(self.registry.all(MethodSpec).values())
+
+    def problem(self, task: str, seed: int = 0, method: str = "proc3s") -> Problem:
+        """The problem of a task without a program; the judge does not decide what is accepted."""
+        goal = None if self.spec.tasks[task].instruction else "anything"
+        name = f"{self.spec.name}/{task}"
+        options = RunOptions.model_validate(
+            {
+                "task": name,
+                "method": method,
+                "seed": seed,
+                "goal": goal,
+                "check_goal": False,
+                "samples": SAMPLES,
+            }
+        )
+        return make_problem(self.registry, options, goal_needed=False)
+
+    @functools.cached_property
+    def answers(self) -> list[BundledAnswer]:
+        """The bundled answers to tasks (seed 0 where they name one), and those of the examples."""
+        return [*self._of_tasks(), *self._of_examples()]
+
+    def _of_tasks(self) -> Iterator[BundledAnswer]:
+        folder = self.spec.folder / "answers" if self.spec.folder else None
+        kinds = {method.template: method.answer for method in self.methods}
+        for path in sorted(folder.glob("*.md")) if folder else ():
+            task, template, *rest = path.name.removesuffix(".md").split(".")
+            seeds = [int(part.removeprefix("seed")) for part in rest if part.startswith("seed")]
+            if task in self.spec.tasks and template in kinds:
+                problem = self.problem(task, seeds[0] if seeds else 0)
+                yield self._answer(path.name, path, read_text(path), kinds[template], problem)
+
+    def _of_examples(self) -> Iterator[BundledAnswer]:
+        for example in self.spec.examples.values():
+            if not self.spec.tasks:
+                return
+            problem = self.problem(next(iter(self.spec.tasks)))
+            scene = json.dumps(self.domain.states.dump(self.domain.scene(example, example.seed)))
+            problem = dataclasses.replace(problem, task=example, scene=scene, goal=example.instruction or "")
+            for kind in sorted({method.answer for method in self.methods}):
+                path = (self.spec.folder or Path()) / "examples" / f"{example.name}.{kind}.md"
+                if path.is_file():
+                    texts = [t for turn, t in example_turns(problem, example, kind) if turn == "answer"]
+                    yield self._answer(path.name, path, texts[-1], kind, problem)
+
+    def _answer(self, name: str, path: Path, text: str, kind: str, problem: Problem) -> BundledAnswer:
+        try:
+            source = extract_program(text)
+        except SketchError:
+            source = text
+        return BundledAnswer(name, path, source, kind, problem)
+
+    def sketch(self, answer: BundledAnswer, source: str | None = None) -> BoxedSketch:
+        """The program of an answer in its box, or another in its place. Raises SketchError."""
+        state = answer.problem.initial
+        return BoxedSketch(
+            Program(
+                source=answer.source if source is None else source,
+                answer=answer.kind,  # type: ignore[arg-type]
+                prelude=setup_code(self.domain),
+                initial=source_text(state),
+                signatures=self.domain.signatures(state),
+                samplers=self.domain.samplers,
+            )
+        )
+
+    @functools.cached_property
+    def batches(self) -> list[tuple[BundledAnswer, PlanBatch]]:
+        """Plans of every answer that has any: samples drawn by a seed of their own."""
+        found = []
+        for answer in self.answers:
+            try:
+                with self.sketch(answer) as sketch:
+                    u = np.random.default_rng(0).random((SAMPLES, sketch.space.dim))
+                    batch = sketch.plans(u if sketch.space.dim else u[:1], first=0)
+            except SketchError:
+                continue  # the check of bundled programs says so
+            if len(batch.errors) < len(batch):
+                found.append((answer, batch))
+        return found
+
+    def plans(self, most: int) -> Iterator[tuple[BundledAnswer, Plan]]:
+        """Plans of all answers, of each in turn, at most so many of each."""
+        for answer, batch in self.batches:
+            good = [i for i in range(len(batch)) if i not in batch.errors][:most]
+            yield from ((answer, batch.plan(i)) for i in good)
+
+    def deadline(self) -> float:
+        """When the search for mistakes that began now must end, as `time.monotonic` counts."""
+        return time.monotonic() + self.seconds
+
+
+def explain(error: Exception) -> str:
+    """An error for people, without a traceback."""
+    return str(error) if isinstance(error, Proc3sError) else f"{type(error).__name__}: {error}"
+
+
+def same(a: Any, b: Any) -> bool:
+    """Whether two results are equal to the last bit, arrays and NaN included."""
+    return bool(a == b) or repr(a) == repr(b)

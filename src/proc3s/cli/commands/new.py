@@ -1,0 +1,32 @@
+"""`proc3s new`."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+new = typer.Typer(help="Begin a plugin: a complete package that installs and passes its tests.")
+
+Name = Annotated[str, typer.Argument(metavar="NAME", help="lower-case letters, digits and _")]
+Dir = Annotated[Path | None, typer.Option("--dir", help="where the package goes  [default: ./NAME]")]
+
+
+def domain(name: Name, dir_: Dir = None) -> None:
+    """A domain: types, a skill, constraints, a task with scene and judge, a worked example, tests."""
+    _begin("domain", name, dir_)
+
+
+def solver(name: Name, dir_: Dir = None) -> None:
+    """A solver with an option, and its tests."""
+    _begin("solver", name, dir_)
+
+
+def llm(name: Name, dir_: Dir = None) -> None:
+    """A language-model backend, and its tests."""
+    _begin("llm", name, dir_)
+
+
+def _begin(kind: str, name: str, folder: Path | None) -> None:
+    from proc3s.cli.handlers.new import begin
+
+    begin(kind, name, folder or Path(name))

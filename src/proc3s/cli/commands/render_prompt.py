@@ -1,0 +1,76 @@
+"""`proc3s render-prompt`."""
+
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from proc3s.cli import arguments as a
+
+
+class Format(StrEnum):
+    """Formats of a rendering."""
+
+    text = "text"
+    markdown = "markdown"
+    json = "json"
+
+
+def render_prompt(
+    task: Annotated[
+        str | None,
+        typer.Argument(metavar="[TASK]", help="domain/task; with --check also a domain, or nothing"),
+    ] = None,
+    method: a.Method = None,
+    preset: a.Preset = None,
+    seed: a.Seed = None,
+    goal: a.Goal = None,
+    round_: Annotated[int, typer.Option("--round", min=0, help="feedback round; needs --from")] = 0,
+    from_: Annotated[
+        Path | None, typer.Option("--from", help="run folder that has the earlier rounds")
+    ] = None,
+    format_: Annotated[Format, typer.Option("--format", help="how messages are printed")] = Format.text,
+    diff: Annotated[Path | None, typer.Option("--diff", help="compare with a rendering or a run")] = None,
+    check: Annotated[
+        Path | None,
+        typer.Option("--check", help="compare all renderings with approved files; exit 2 if they differ"),
+    ] = None,
+    update: Annotated[bool, typer.Option("--update", help="with --check: approve the renderings")] = False,
+    template_dir: a.TemplateDir = None,
+    plugin: a.Plugins = None,
+    domain_options: a.DomainOptions = None,
+    method_options: a.MethodOptions = None,
+) -> None:
+    """Print exactly what the LLM would be asked. Calls nobody."""
+    from proc3s.cli.failures import warn_of_failures
+    from proc3s.cli.handlers import approve_prompts as approval
+    from proc3s.cli.handlers import render_prompt as renderings
+    from proc3s.errors import UsageError
+    from proc3s.plugins.registry import open_registry
+
+    given = {
+        "method": method,
+        "preset": preset,
+        "seed": seed,
+        "goal": goal,
+        "template_dir": template_dir,
+        "plugins": plugin,
+        "domain_options": domain_options,
+        "method_options": method_options,
+    }
+    registry = open_registry(plugin or [])
+    if check is not None:
+        if diff or from_ or round_ or format_ is not Format.text:
+            raise UsageError(
+                "--check compares whole renderings: it takes no --diff, --from, --round or --format"
+            )
+        raise typer.Exit(approval.check(registry, check, task, update, given))
+    if update:
+        raise UsageError("--update goes with --check")
+    if task is None:
+        raise UsageError("name a task, e.g. drawing/star")
+    options = renderings.options_of(task, given, from_)
+    messages = renderings.render(registry, options, round_, from_)
+    renderings.show(messages, format_.value, diff, round_)
+    warn_of_failures(registry)

@@ -1,0 +1,233 @@
+"""What a person sees of a run: progress on stderr while it samples, then a short result."""
+
+import sys
+from collections import Counter
+from types import TracebackType
+
+from rich.console import Console as RichConsole
+from rich.markup import escape
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+from proc3s.feedback.report import Diagnosis, Failure
+from proc3s.feedback.shares import portion
+from proc3s.llm.budget import Spent
+from proc3s.llm.types import Completion
+from proc3s.planning.options import RunOptions
+from proc3s.planning.summary import Summary
+from proc3s.runs.events import (
+    AnswerReceived,
+    Audited,
+    BatchEvaluated,
+    CallFailed,
+    Event,
+    ProgramExtracted,
+    PromptRendered,
+    RoundEnded,
+    SketchLoaded,
+    Warned,
+)
+from proc3s.wording import count
+
+_ORIGIN = {
+    "authored": "an authored answer (written by hand, not by a model)",
+    "recorded": "a recorded answer",
+    "manual": "an answer given by hand",
+    "live": "an answer",
+}
+_LOST = {
+    "seed": ": this run cannot be reproduced",
+    "temperature": ": answers may vary",
+    "n": ": candidates are asked for one by one",
+}
+"""What goes with a parameter that the provider does not take."""
+
+
+class Console:
+    """Progress is shown only on a terminal; `quiet` prints nothing but errors.
+
+    `samples` is how many a round may take.
+    """
+
+    def __init__(self, options: RunOptions, samples: int, quiet: bool) -> None:
+        self._options = options
+        self._samples = samples
+        self._quiet = quiet
+        self._err = RichConsole(stderr=True, quiet=quiet, highlight=False, soft_wrap=True)
+        self._progress = Progress(
+            TextColumn("  {task.description}"),
+            BarColumn(bar_width=24),
+            MofNCompleteColumn(),
+            TextColumn(
+                "samples  {task.fields[rate]}  furthest step {task.fields[reached]}  {task.fields[why]}"
+            ),
+            TimeElapsedColumn(),
+            console=self._err,
+            transient=True,
+            disable=quiet or not sys.stderr.isatty(),
+        )
+        self._task = self._progress.add_task(
+            "sampling", start=False, visible=False, rate="", reached=0, why=""
+        )
+        self._why: Counter[str] = Counter()
+        self._lost: set[str] = set()
+
+    def __enter__(self) -> "Console":
+        self._progress.start()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._progress.stop()
+
+    def update(self, event: Event) -> None:
+        """Show what an event says."""
+        if isinstance(event, PromptRendered):
+            size = sum(len(message.text) for message in event.messages)
+            self.say(f"round {event.round}: asking {self._options.llm} ({size} characters)")
+        elif isinstance(event, CallFailed):
+            self.say(f"round {event.round}: {event.message}; trying again in {event.wait:.1f} s")
+        elif isinstance(event, Warned):
+            self.say(f"round {event.round}: {event.text}")
+        elif isinstance(event, AnswerReceived):
+            self._answered(event.round, event.completion)
+        elif isinstance(event, ProgramExtracted) and event.blocks:
+            self.say(f"round {event.round}: the program is {event.blocks} in the answer")
+        elif isinstance(event, SketchLoaded):
+            self._loaded(event)
+        elif isinstance(event, BatchEvaluated):
+            self._sampled(event)
+        elif isinstance(event, Audited):
+            self.say(f"round {event.round}: audit: {len(event.wrong)} of {event.checked} rejects were wrong")
+        elif isinstance(event, RoundEnded):
+            self._diagnosis(event.round, event.diagnosis)
+
+    def _answered(self, round_: int, completion: Completion) -> None:
+        source, count = completion.source, len(completion.candidates)
+        whose = "" if source == "authored" else f" from {completion.model}"
+        many = f", {count} candidates" if count > 1 else ""
+        self.say(f"round {round_}: {_ORIGIN.get(source, 'an answer')}{whose}{many}{_cost(completion)}")
+        for name in completion.dropped:
+            if name not in self._lost:
+                self.say(f"round {round_}: {completion.model} does not support {name}{_LOST.get(name, '')}")
+        self._lost.update(completion.dropped)
+        for note in completion.notes:
+            self.say(f"round {round_}: {note}")
+
+    def say(self, text: str) -> None:
+        """A line on stderr."""
+        self._err.print(escape(text))
+
+    def _loaded(self, event: SketchLoaded) -> None:
+        listed = ", ".join(event.parameters)
+        shown = listed if len(listed) <= 100 else f"{listed[:100]}…"
+        number = (
+            f"with {count(len(event.parameters), 'open parameter')}" if listed else "without open parameters"
+        )
+        self.say(f"round {event.round}: a program {number} {shown}".rstrip())
+        self._why.clear()
+        self._progress.reset(
+            self._task, total=self._samples, visible=True, rate="", reached=0, why="", start=True
+        )
+
+    def _sampled(self, event: BatchEvaluated) -> None:
+        self._why.update(name for name in event.violation if name)
+        task = self._progress.tasks[0]
+        self._progress.update(
+            self._task,
+            advance=len(event.accepted),
+            rate=f"{task.speed:,.0f}/s" if task.speed else "",
+            reached=max([task.fields["reached"], *event.reached]),
+            why="  ".join(f"{name} {count}" for name, count in self._why.most_common(3)),
+        )
+
+    def _diagnosis(self, round_: int, diagnosis: Diagnosis) -> None:
+        self._progress.update(self._task, visible=False)
+        self.say(f"round {round_}: no plan was accepted ({_samples(diagnosis.samples)})")
+        if diagnosis.alike:
+            self.say(f"  no more were drawn: all of the first {diagnosis.samples} raised the same exception")
+        for failure in (*diagnosis.program_errors, *diagnosis.failures)[:3]:
+            self.say(f"  {portion(failure.share):>5}  {describe(failure)}")
+
+    def result(self, summary: Summary) -> None:
+        """The outcome in a few lines on stdout."""
+        if self._quiet:
+            return
+        out = RichConsole(highlight=False, soft_wrap=True)
+        out.print(_headline(summary))
+        if summary.error is None or summary.solved:
+            out.print(escape(f"goal     {_goal(summary)}"))
+        if summary.samples:
+            rounds = count(summary.rounds + 1, "round")
+            out.print(f"samples  {summary.samples} in {rounds}, {_times(summary)}")
+        elif summary.seconds:
+            out.print(f"time     {_times(summary)}; no sample was drawn")
+        for screen, rejected in summary.rejected_by.items():
+            if rejected:
+                out.print(f"screen   {screen} rejected {rejected}")
+        if summary.usage.calls:
+            out.print(f"answers  {_spent(summary.usage)}")
+        if summary.llm_source == "authored":
+            out.print("answer   authored (written by hand, not by a model)")
+        if summary.stale:
+            out.print("answer   stale (given to another prompt than that of this run)")
+        for step, action in enumerate(summary.plan or []):
+            args = ", ".join(f"{v:.2f}" if isinstance(v, float) else str(v) for v in action["args"])
+            out.print(escape(f"  {step:2d}  {action['skill']}({args})"))
+        for violation in summary.violations[:5]:
+            out.print(escape(f"  violated at step {violation['step']}: {violation['text']}"))
+        out.print(escape(f"folder   {summary.run_dir}"))
+
+
+def _spent(spent: Spent) -> str:
+    tokens = "unknown" if spent.prompt_tokens is None or spent.completion_tokens is None else None
+    tokens = tokens or f"{spent.prompt_tokens:,} + {spent.completion_tokens:,}"
+    cost = "unknown" if spent.cost is None else f"${spent.cost:.4f}"
+    return f"{count(spent.calls, 'call')}, tokens {tokens}, cost {cost}"
+
+
+def _cost(completion: Completion) -> str:
+    """What an answer cost, as far as it is known."""
+    usage = completion.usage
+    known = (
+        f"{usage.prompt_tokens:,} + {usage.completion_tokens:,} tokens"
+        if usage.prompt_tokens is not None and usage.completion_tokens is not None
+        else "",
+        f"${completion.cost:.4f}" if completion.cost is not None else "",
+        f"{completion.latency:.1f} s" if completion.latency is not None else "",
+    )
+    text = ", ".join(part for part in known if part)
+    return f" ({text})" if text else ""
+
+
+def _samples(number: int) -> str:
+    return count(number, "sample") if number else "no sample was drawn"
+
+
+def _headline(summary: Summary) -> str:
+    if summary.error is not None and not summary.solved:
+        return f"[bold red]stopped[/]  {summary.task} (seed {summary.seed})"
+    if summary.solved:
+        steps = count(len(summary.plan or []), "step")
+        return f"[bold green]solved[/]   {summary.task} (seed {summary.seed}), a plan of {steps}"
+    tail = "; a plan that violates constraints was executed" if summary.executed == "fallback" else ""
+    return f"[bold red]unsolved[/] {summary.task} (seed {summary.seed}){tail}"
+
+
+def _goal(summary: Summary) -> str:
+    if summary.goal_reached is None:
+        return f"not judged: {summary.goal_reason or 'no plan was executed'}"
+    return f"{'reached' if summary.goal_reached else 'missed'}: {summary.goal_reason}"
+
+
+def _times(summary: Summary) -> str:
+    return f"{summary.seconds['solve']:.2f} s solving, {summary.seconds['llm']:.2f} s LLM"
+
+
+def describe(failure: Failure) -> str:
+    """A failure on one line."""
+    if failure.step is not None:
+        return f"step {failure.step} ({failure.skill}): {failure.text}"
+    line = f" (line {failure.line}: {(failure.source or '').strip()})" if failure.line else ""
+    parameters = f", {failure.parameters}" if failure.parameters else ""
+    return f"{failure.kind}: {failure.text}{line}{parameters}"

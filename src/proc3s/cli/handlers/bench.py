@@ -1,0 +1,245 @@
+"""A benchmark from the command line: what is wanted, measured one by one, as a table and as files."""
+
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any, TypeAlias
+
+from rich.console import Console
+from rich.table import Table
+
+from proc3s.benchmark.cases import Case, find_cases
+from proc3s.benchmark.measurement import PLAIN, Measurement, SearchVariant
+from proc3s.benchmark.statistics import Row, rows
+from proc3s.benchmark.throughput import Bench
+from proc3s.cli.streams import print_document
+from proc3s.errors import Interrupted, Proc3sError, UsageError
+from proc3s.plugins.registry import Registry, open_registry
+from proc3s.plugins.versions import versions
+from proc3s.runs.folder import new_folder
+from proc3s.specs.parts import ExecutorSpec, SolverSpec
+from proc3s.suites.lock import alone_in
+
+SUITES = ("ccsp", "execution")
+STAGES = "program + screens + world + other"
+SEARCHES = (
+    *("program", "way", "solved", "samples", "world", "us/sample", STAGES, "s/solution", "samples/s"),
+    *("faster a sample", "fewer samples", "faster a solution", "faster by the clock"),
+)
+BATCHES = (
+    *("program", "way", "us/sample", STAGES, "samples/s", "screens: plans/s", "wrong rejects"),
+    *("world: plans/s", "faster"),
+)
+
+
+_WIDTH = 180
+"""Columns of a table; a narrower terminal wraps its lines."""
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """What a benchmark was asked to do; no task or solver stands for all of them."""
+
+    suite: str
+    tasks: tuple[str, ...]
+    solvers: tuple[str, ...]
+    seeds: int
+    executor: str
+    jobs: int
+    samples: int | None
+    throughput: int
+    robust: int
+    times: int
+    plugins: tuple[Path, ...]
+
+
+@dataclass
+class Results:
+    """What was measured up to now: searches, and runs in large batches."""
+
+    searches: list[Measurement]
+    throughput: list[Measurement]
+
+    def document(self, wanted: Wanted, error: Proc3sError | None) -> dict[str, Any]:
+        """Everything as plain data."""
+        return {
+            "options": {**asdict(wanted), "plugins": [str(path) for path in wanted.plugins]},
+            "time": datetime.now(UTC).isoformat(timespec="seconds"),
+            "versions": versions(),
+            "error": str(error) if error else None,
+            "searches": [row.model_dump() for row in rows(self.searches)],
+            "throughput": [row.model_dump() for row in rows(self.throughput)],
+            "measurements": {
+                "searches": [asdict(m) for m in self.searches],
+                "throughput": [asdict(m) for m in self.throughput],
+            },
+        }
+
+
+def refuse_unused(suite: str, options: Mapping[str, Any]) -> None:
+    """Raises UsageError for an option that was given, and changes nothing of this benchmark."""
+    for name, value in options.items():
+        if value is not None:
+            raise UsageError(f"{name} changes nothing of `bench {suite}`; leave it out")
+
+
+def refuse_empty(options: Mapping[str, Sequence[str] | None]) -> None:
+    """Raises UsageError for a list of names that was given without any."""
+    for name, values in options.items():
+        if values is not None and not any(part for value in values for part in value.split(",")):
+            raise UsageError(f"{name} is empty; leave it out, or name some")
+
+
+def run_bench(wanted: Wanted, out: Path | None, as_json: bool) -> None:
+    """Measure, print and write. What is done when it is interrupted is kept. Raises UsageError."""
+    registry = open_registry(wanted.plugins)
+    cases, ways = _chosen(registry, wanted)
+    folder = made_folder(out, wanted.suite)
+    with alone_in(folder):
+        _run_in(folder, registry, cases, ways, wanted, as_json)
+
+
+def _run_in(
+    folder: Path,
+    registry: Registry,
+    cases: Sequence[Case],
+    ways: Sequence[SearchVariant],
+    wanted: Wanted,
+    as_json: bool,
+) -> None:
+    results = Results([], [])
+    stopped: Proc3sError | None = None
+    progress = Console(stderr=True, quiet=as_json, highlight=False)
+    try:
+        with Bench(registry, ways, wanted.samples) as bench:
+            for note in _measure(bench, cases, wanted, results):
+                progress.print(note)
+    except KeyboardInterrupt:
+        stopped = Interrupted("interrupted; what was measured is kept")
+    except Proc3sError as error:
+        stopped = error
+    document = results.document(wanted, stopped)
+    write(folder / "results.json", json.dumps(document, indent=2, ensure_ascii=False) + "\n")
+    write(folder / "results.md", _markdown(results))
+    if as_json:
+        print_document(json.dumps(document, indent=2, ensure_ascii=False))
+    else:
+        _print(results, folder)
+    if stopped is not None:
+        raise stopped
+
+
+def _chosen(registry: Registry, wanted: Wanted) -> tuple[list[Case], list[SearchVariant]]:
+    """The cases and ways that are wanted. Raises UsageError for names that do not exist."""
+    registry.get(ExecutorSpec, wanted.executor)
+    solvers = [registry.get(SolverSpec, name).name for name in wanted.solvers]
+    ways = [
+        SearchVariant(solver, solver, wanted.executor, wanted.jobs)
+        for solver in dict.fromkeys(solvers or registry.all(SolverSpec))
+    ]
+    if wanted.jobs > 1:
+        plain = f"{PLAIN.name}, {wanted.jobs} jobs"
+        ways.insert(0, SearchVariant(plain, PLAIN.solver, wanted.executor, wanted.jobs, saving=False))
+    cases = find_cases(registry, wanted.tasks)
+    if not cases:
+        raise UsageError("no domain brings programs for a benchmark (bench/TASK.NAME.py beside its spec)")
+    return cases, ways
+
+
+def made_folder(out: Path | None, suite: str) -> Path:
+    """The folder of the results; a new one below `runs` if none is named. Raises UsageError."""
+    if out is None:
+        return new_folder(Path("runs"), "bench", suite, 0)
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise UsageError(f"the folder {out} cannot be made: {error.strerror}") from error
+    return out
+
+
+def _measure(bench: Bench, cases: Sequence[Case], wanted: Wanted, results: Results) -> Iterator[str]:
+    """Fill the results; tells what it does next."""
+    for case in cases:
+        for seed in range(wanted.seeds):
+            yield f"{case.label} seed {seed}"
+            for measurement in bench.search(case, seed):
+                results.searches.append(measurement)
+            if wanted.throughput:
+                for measurement in bench.throughput(case, seed, wanted.throughput):
+                    results.throughput.append(measurement)
+
+
+def write(path: Path, text: str) -> None:
+    """Write a file of results. Raises UsageError."""
+    try:
+        path.write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise UsageError(f"{path} cannot be written: {error.strerror}") from error
+
+
+def _search_cells(row: Row) -> list[str]:
+    ratios = (row.faster_per_sample, row.fewer_samples, row.faster_per_solution, row.faster_by_the_clock)
+    return [
+        row.case,
+        row.way,
+        f"{row.solved}/{row.seeds}",
+        f"{row.samples:.0f}",
+        f"{row.evaluations:.0f}",
+        f"{row.us_per_sample['total']:.1f}",
+        _stages(row, "{:.1f}"),
+        f"{row.s_per_solution['total']:.3g}" if row.s_per_solution else "",
+        f"{row.samples_per_second:,.0f}",
+        *(str(ratio) if ratio else "" for ratio in ratios),
+    ]
+
+
+def _batch_cells(row: Row) -> list[str]:
+    screens = row.us_per_sample["screens"] if row.way != PLAIN.name else 0.0
+    world = row.us_per_sample["world"] * row.samples / row.evaluations if row.evaluations else 0.0
+    return [
+        row.case,
+        row.way,
+        f"{row.us_per_sample['total']:.1f}",
+        _stages(row, "{:.1f}"),
+        f"{row.samples_per_second:,.0f}",
+        f"{1e6 / screens:,.0f}" if screens else "",
+        f"{row.wrong}/{row.audited}" if row.audited else "",
+        f"{1e6 / world:,.0f}" if world else "",
+        str(row.faster_per_sample or ""),
+    ]
+
+
+def _stages(row: Row, number: str) -> str:
+    return " + ".join(number.format(value) for name, value in row.us_per_sample.items() if name != "total")
+
+
+Lines: TypeAlias = list[list[str]]
+
+
+def _tables(results: Results) -> Iterator[tuple[str, tuple[str, ...], Lines]]:
+    """Title, head and lines."""
+    yield "Until a plan is found", SEARCHES, [_search_cells(row) for row in rows(results.searches)]
+    if results.throughput:
+        lines = [_batch_cells(row) for row in rows(results.throughput)]
+        yield "In large batches, whatever is accepted", BATCHES, lines
+
+
+def _markdown(results: Results) -> str:
+    parts = []
+    for title, head, cells in _tables(results):
+        lines = [f"| {' | '.join(line)} |" for line in (head, ["---"] * len(head), *cells)]
+        parts.append(f"## {title}\n\n" + "\n".join(lines) + "\n")
+    return "\n".join(parts)
+
+
+def _print(results: Results, folder: Path) -> None:
+    console = Console(highlight=False, width=max(_WIDTH, Console().width))
+    for title, head, cells in _tables(results):
+        console.print(title)
+        table = Table(*head, box=None, pad_edge=False)
+        for line in cells:
+            table.add_row(*line)
+        console.print(table)
+    console.print(f"folder   {folder}", soft_wrap=True)

@@ -1,0 +1,99 @@
+"""Renderings of prompts: of one task, of a later round, compared with earlier ones."""
+
+import difflib
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import typer
+
+from proc3s.cli.handlers.run import run_options
+from proc3s.cli.streams import print_document
+from proc3s.errors import UsageError
+from proc3s.feedback.report import Diagnosis
+from proc3s.llm.types import Message, digest, estimate_tokens
+from proc3s.planning.options import RunOptions
+from proc3s.planning.proposals import proposals_of
+from proc3s.planning.resume import answers_of
+from proc3s.planning.setup import make_problem, make_prompter
+from proc3s.plugins.registry import Registry
+from proc3s.prompts.conversation import Exchange, conversation
+from proc3s.runs.folder import markdown
+from proc3s.runs.reading import LOG, events_of, read_events, started
+from proc3s.textfiles import read_text
+
+
+def render(registry: Registry, options: RunOptions, round_: int, run: Path | None) -> tuple[Message, ...]:
+    """The messages of a round; rounds after the first take answers and diagnoses from a run folder."""
+    if round_ and run is None:
+        raise UsageError("--round needs --from RUN, which has the answers of the earlier rounds")
+    problem = make_problem(registry, options)
+    history = _history(run, round_) if run else []
+    return conversation(make_prompter(registry, options, problem), problem, history)
+
+
+def options_of(task: str, given: dict[str, Any], run: Path | None) -> RunOptions:
+    """Options of a rendering: those of the run it is from, changed by what the command line gives."""
+    if run is None:
+        return run_options(task=task, **given)
+    logged = RunOptions.model_validate(started(run)["options"])
+    if logged.task != task:
+        raise UsageError(f"{run} is a run of {logged.task}, not of {task}")
+    own = run_options(task=task, **given)
+    changed = {name for name, value in given.items() if value is not None}
+    return logged.model_copy(update={name: getattr(own, name) for name in changed})
+
+
+def _history(run: Path, rounds: int) -> list[Exchange]:
+    texts = {
+        (p.round, p.candidate): p.answer
+        for a in answers_of(read_events(run))
+        for p in proposals_of(a.completion, a.round, a.candidate)
+    }
+    ended = [e for e in events_of(run, "round_ended") if (e["round"], e["candidate"]) in texts]
+    if len(ended) < rounds:
+        raise UsageError(f"{run} has {len(ended)} failed round(s), so no prompt of round {rounds}")
+    return [
+        Exchange(texts[e["round"], e["candidate"]], Diagnosis.model_validate(e["diagnosis"]))
+        for e in ended[:rounds]
+    ]
+
+
+def show(messages: tuple[Message, ...], format_: str, diff: Path | None, round_: int) -> None:
+    """Print a rendering, or how it differs; its SHA-256 and size go to stderr."""
+    text = _formatted(messages, format_)
+    if diff is not None:
+        text = "".join(unified_diff(_earlier(diff, format_, round_), text, str(diff), "now"))
+    print_document(text)
+    typer.echo(f"sha256 {digest(messages)}  about {estimate_tokens(messages)} tokens", err=True)
+
+
+def _formatted(messages: tuple[Message, ...], format_: str) -> str:
+    if format_ == "json":
+        return json.dumps([m.model_dump() for m in messages], indent=2, ensure_ascii=False) + "\n"
+    if format_ == "markdown":
+        return markdown(messages)
+    return "\n".join(f"[{m.role}: {m.kind}]\n{m.text.rstrip()}\n" for m in messages)
+
+
+def _earlier(path: Path, format_: str, round_: int) -> str:
+    """The text of an earlier rendering: a file, or the prompt of a round in a run folder."""
+    if (path / LOG).is_file():
+        prompts = [event for event in events_of(path, "prompt_rendered") if event["round"] == round_]
+        if not prompts:
+            raise UsageError(f"{path} has no prompt of round {round_}")
+        return _formatted(tuple(Message.model_validate(m) for m in prompts[0]["messages"]), format_)
+    if not path.is_file():
+        raise UsageError(f"there is no rendering or run {path}")
+    try:
+        return read_text(path)
+    except (OSError, UnicodeDecodeError) as error:
+        raise UsageError(f"the rendering {path} cannot be read: {error}") from error
+
+
+def unified_diff(old: str, new: str, old_name: str, new_name: str) -> Iterator[str]:
+    """The lines of a unified diff of two texts."""
+    return difflib.unified_diff(
+        old.splitlines(keepends=True), new.splitlines(keepends=True), old_name, new_name, n=2
+    )

@@ -1,0 +1,1 @@
+"""A domain at work: states, plans, worlds, margins and samplers."""

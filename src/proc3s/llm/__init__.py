@@ -1,0 +1,1 @@
+"""Language models: typed messages, and one way to ask."""

@@ -1,0 +1,102 @@
+"""Execution: the plan is carried out open loop, and the judges look at the result."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any, Literal
+
+from proc3s.domain.margins import Violation
+from proc3s.domain.state import State
+from proc3s.domain.values import Plan
+from proc3s.domain.world import Score, World, make_world
+from proc3s.errors import Proc3sError, blame
+from proc3s.runs.events import Emit, PlanExecuted, Unwritten
+from proc3s.search.problem import Problem
+from proc3s.search.rollout import carry_out, judge
+from proc3s.specs.base import Target
+
+
+@dataclass(frozen=True)
+class Execution:
+    """A plan that was carried out to its end, and the verdicts on it; a score is None without a judge.
+
+    `violations` are those of the world that accepts plans. `score` is on the state that the execution world
+    ended in, `expected` on that of the other.
+    """
+
+    plan: Plan
+    executed: Literal["solution", "fallback"]
+    violations: tuple[Violation, ...]
+    score: Score | None
+    reason: str
+    expected: Score | None
+
+
+def execute(
+    problem: Problem,
+    plan: Plan,
+    executed: Literal["solution", "fallback"],
+    place: tuple[int, int],
+    picture: Path | None,
+    emit: Emit,
+) -> Execution:
+    """Carry a plan out open loop, without stopping at violations; `picture` takes a PNG of the outcome.
+    `place` is the round and the candidate whose program the plan is from.
+
+    A fallback that turns out to violate nothing is a solution.
+    """
+    spec = problem.domain.spec
+    draw = partial(_draw, plan, picture, emit)
+    violations, final = _carry_out(problem, plan, spec.world, None if spec.execution else draw)
+    expected, reason = judge(problem, final, plan)
+    score = expected
+    if spec.execution:
+        _, final = _carry_out(problem, plan, spec.execution, draw)
+        score, reason = judge(problem, final, plan)
+    if not violations:
+        executed = "solution"
+    execution = Execution(plan, executed, violations, score, reason, expected)
+    emit(_executed(execution, place))
+    return execution
+
+
+def _carry_out(
+    problem: Problem, plan: Plan, target: Target, draw: Callable[[World[Any]], None] | None
+) -> tuple[tuple[Violation, ...], State]:
+    """What the plan violates in a world, and the state it ends in."""
+    world = make_world(problem.domain, target)
+    try:
+        with blame("world"):
+            trial, final = carry_out(world, problem, plan, stop=False)
+        if draw is not None:
+            draw(world)
+    finally:
+        world.close()
+    return trial.violations, final
+
+
+def _draw(plan: Plan, picture: Path | None, emit: Emit, world: World[Any]) -> None:
+    """Draw the outcome, if a picture is wanted; without it the plan is as good, so it is only told."""
+    if picture is None:
+        return
+    try:
+        with blame("world"):
+            world.render(plan, picture)
+    except Proc3sError as error:
+        cause = error.__cause__
+        reason = cause.strerror if isinstance(cause, OSError) and cause.strerror else error
+        emit(Unwritten(text=f"the picture {picture} is missing: {reason}"))
+
+
+def _executed(execution: Execution, place: tuple[int, int]) -> PlanExecuted:
+    return PlanExecuted(
+        round=place[0],
+        candidate=place[1],
+        executed=execution.executed,
+        plan=[action.to_json() for action in execution.plan],
+        violations=[violation.to_json() for violation in execution.violations],
+        goal_reached=execution.score.reached if execution.score else None,
+        goal_reason=execution.reason,
+        goal_expected=execution.expected.reached if execution.expected else None,
+    )

@@ -1,0 +1,61 @@
+"""What `--limit KEY=VALUE` changes: limits of the box, and of the clock, which only break a run off."""
+
+import dataclasses
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TypeVar
+
+from pydantic import TypeAdapter, ValidationError
+
+from proc3s.errors import UsageError, did_you_mean
+from proc3s.sandbox.limits import Limits
+from proc3s.search.watch import SECONDS
+
+Part = TypeVar("Part", Limits, "ClockLimits")
+
+
+@dataclass(frozen=True)
+class ClockLimits:
+    """Wall-clock seconds after which a run is broken off, None for no limit; no verdict depends on them."""
+
+    round: float | None = None
+    """From the answers of a round to the end of its search."""
+    step: float = SECONDS
+    """One step of a plan in a world, its reset, or a judge."""
+
+
+def make_limits(given: Mapping[str, str]) -> tuple[Limits, ClockLimits]:
+    """Both kinds with what the command line changes. Raises UsageError."""
+    known = [*_names(Limits), *_names(ClockLimits)]
+    for name in given:
+        if name not in known:
+            raise UsageError(f"there is no limit {name!r}{did_you_mean(name, known)}")
+    return _made(Limits, given), _made(ClockLimits, given)
+
+
+def box_limits(given: Mapping[str, str]) -> dict[str, str]:
+    """Those of the box alone: they are part of what a run is, and those of the clock are not."""
+    return {name: value for name, value in given.items() if name in _names(Limits)}
+
+
+def clock_only(given: Mapping[str, str]) -> dict[str, str]:
+    """Those of the clock alone, which may change when a run goes on."""
+    return {name: value for name, value in given.items() if name in _names(ClockLimits)}
+
+
+def _names(part: type[Limits] | type[ClockLimits]) -> list[str]:
+    return [field.name for field in dataclasses.fields(part)]
+
+
+def _made(part: type[Part], given: Mapping[str, str]) -> Part:
+    own = {name: value for name, value in given.items() if name in _names(part)}
+    try:
+        limits = TypeAdapter(part).validate_python(own)
+    except ValidationError as error:
+        detail = error.errors()[0]
+        raise UsageError(f"limit {detail['loc'][0]}: {detail['msg']}, not {detail['input']!r}") from error
+    for name in own:
+        if not 0 < getattr(limits, name) < math.inf:
+            raise UsageError(f"limit {name}: must be above 0 and finite, not {given[name]!r}")
+    return limits

@@ -1,0 +1,38 @@
+"""The parts that a run is made of."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TypeAlias
+
+import numpy as np
+
+from proc3s.domain.samplers import Space
+from proc3s.planning.limits import ClockLimits
+from proc3s.sandbox.box import Limits
+from proc3s.search.executor import Executor
+from proc3s.search.problem import Problem
+from proc3s.search.solver import Solver
+from proc3s.specs.parts import MethodSpec, PresetSpec
+
+MakeSolver: TypeAlias = Callable[[Space, int, np.random.Generator], Solver]
+
+
+@dataclass(frozen=True)
+class Setup:
+    """Everything a run is made of, but for the one who proposes programs.
+
+    `locked` is False only if the user asked for programs to run outside the kernel's lock.
+    """
+
+    problem: Problem
+    method: MethodSpec
+    preset: PresetSpec
+    solver: str
+    make_solver: MakeSolver
+    executor: Executor
+    limits: Limits = field(default_factory=Limits)
+    clock_limits: ClockLimits = field(default_factory=ClockLimits)
+    locked: bool = True
+    audit: int = 0
+    picture: Path | None = None

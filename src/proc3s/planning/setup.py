@@ -1,0 +1,124 @@
+"""Options of a run as plain data, and the wiring of the chosen plugins into a `Setup`."""
+
+import dataclasses
+import json
+from typing import Any
+
+import numpy as np
+
+from proc3s import specs
+from proc3s.domain.samplers import Space
+from proc3s.domain.world import World
+from proc3s.errors import UsageError, blame
+from proc3s.planning.limits import make_limits
+from proc3s.planning.options import DEFAULT_SOLVER, RunOptions
+from proc3s.planning.parts import Setup
+from proc3s.plugins.part_options import part_options
+from proc3s.plugins.registry import Registry, _template_folders
+from proc3s.prompts.prompter import Prompter
+from proc3s.sandbox.errors import SketchError
+from proc3s.search.executor import Executor
+from proc3s.search.problem import Problem
+from proc3s.search.solver import Solver
+from proc3s.specs.yaml_files import validate
+from proc3s.specs.yaml_reader import scalar
+
+
+def select_method(registry: Registry, options: RunOptions) -> specs.MethodSpec:
+    """The method with what the command line changes in it."""
+    method = registry.get(specs.MethodSpec, options.method)
+    changes: dict[str, Any] = dict(options.method_options)
+    if options.feedback is not None:
+        if "rounds" in options.method_options:
+            raise UsageError("--feedback and -M rounds=… say the same; leave one of them out")
+        changes["rounds"] = options.feedback
+    return validate(specs.MethodSpec, {**method.model_dump(), **changes}, f"method {method.name}")
+
+
+def make_problem(registry: Registry, options: RunOptions, goal_needed: bool = True) -> Problem:
+    """The problem of a task and a seed, before there is a program.
+
+    Raises UsageError if the task has no instruction of its own and `goal` gives none.
+    """
+    domain, task = registry.task(options.task)
+    if options.goal is not None and not options.goal.strip():
+        raise UsageError("--goal is empty; leave it out, or say what is to be done")
+    goal = options.goal or task.instruction
+    if goal is None and goal_needed:
+        raise UsageError(f'{options.task} has no instruction of its own; give one with --goal "…"')
+    preset = registry.get(specs.PresetSpec, options.preset)
+    budget = {**domain.spec.budget, **task.budget}
+    if options.samples is None and preset.budget not in budget:
+        raise UsageError(f"{options.task} has no budget {preset.budget!r}; give --samples")
+    state = domain.scene(task, options.seed, {k: scalar(v) for k, v in options.domain_options.items()})
+    return Problem(
+        domain=domain,
+        task=task,
+        scene=json.dumps(domain.states.dump(state)),
+        goal=goal or "",
+        seed=options.seed,
+        samples=options.samples or budget[preset.budget],
+        check_goal=preset.check_goal if options.check_goal is None else options.check_goal,
+        robust=options.robust,
+        screens="none" if options.no_screens else preset.screens,
+    )
+
+
+def make_prompter(registry: Registry, options: RunOptions, problem: Problem) -> Prompter:
+    """The prompter of the chosen method; folders in the order user, domain, plugins."""
+    method = select_method(registry, options)
+    if options.template_dir is not None and not options.template_dir.is_dir():
+        raise UsageError(f"there is no template folder {options.template_dir}")
+    own = [options.template_dir] if options.template_dir else []
+    return Prompter(
+        method=method,
+        preset=registry.get(specs.PresetSpec, options.preset),
+        folders=(*own, *_template_folders(registry, problem.domain)),
+        context=registry.plugins.prompt_context(problem, method),
+    )
+
+
+def make_executor(registry: Registry, name: str, jobs: int) -> Executor:
+    """The executor with so many jobs. Raises UsageError if it has no use for them."""
+    spec = registry.get(specs.ExecutorSpec, name)
+    if spec.most_jobs is not None and jobs > spec.most_jobs:
+        raise UsageError(
+            f"the executor {name} takes at most --jobs {spec.most_jobs}, not {jobs}; leave one of the two out"
+        )
+    make = spec.load()
+    with blame(f"executor {name}"):
+        executor: Executor = make(jobs=jobs)
+    return executor
+
+
+def make_setup(registry: Registry, options: RunOptions, problem: Problem) -> Setup:
+    """The parts of the second stage: solver, executor, method and preset."""
+    method = select_method(registry, options)
+    preset = registry.get(specs.PresetSpec, options.preset)
+    name = options.solver or method.solver or preset.solver or DEFAULT_SOLVER
+    solver = registry.get(specs.SolverSpec, name)
+    solver_options = part_options(solver, options.solver_options)
+    make = solver.load()
+    executor = make_executor(registry, options.executor, options.jobs)
+    problem.domain.require(problem.task)
+    limits, clock_limits = make_limits(options.limits)
+    if problem.robust and problem.domain.spec.world.load().disturb is World.disturb:
+        raise UsageError(f"--robust: nothing disturbs the world of {problem.domain.spec.name}")
+
+    def make_solver(space: Space, budget: int, rng: np.random.Generator) -> Solver:
+        with blame(f"solver {name}", SketchError):
+            made: Solver = make(space, budget, rng, solver_options)
+        return made
+
+    return Setup(
+        problem=dataclasses.replace(problem, step_limit=clock_limits.step),
+        method=method,
+        preset=preset,
+        solver=name,
+        make_solver=make_solver,
+        executor=executor,
+        limits=limits,
+        clock_limits=clock_limits,
+        locked=not options.unsafe_exec,
+        audit=options.audit,
+    )

@@ -1,0 +1,193 @@
+"""Plugins: entry points and loose files, each loaded in its own `try`, wrapped in one typed manager."""
+
+import importlib.metadata
+import importlib.util
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import pluggy
+
+from proc3s.errors import Issue, Proc3sError, SpecError, UsageError, blame, did_you_mean
+from proc3s.plugins import hookspecs
+from proc3s.plugins.loose_files import LOOSE_FILE, DomainFile, import_loose_file
+from proc3s.plugins.versions import GROUP
+from proc3s.specs.base import Spec
+
+
+@dataclass(frozen=True)
+class PluginStatus:
+    """What became of one plugin: `error` is None if it loaded."""
+
+    name: str
+    source: str
+    version: str | None = None
+    error: str | None = None
+
+
+class PluginManager:
+    """Loads plugins and calls their hooks; a broken plugin is recorded and never stops the others.
+
+    `files` are loose plugin files named on the command line: those must load, or SpecError / UsageError
+    is raised. `proc3s_plugins.py` in the working directory is loaded too.
+    """
+
+    def __init__(self, files: Sequence[Path] = ()) -> None:
+        self._manager = pluggy.PluginManager(GROUP)
+        self._manager.add_hookspecs(hookspecs)
+        self._explicit = {str(path) for path in files}
+        self._registered: dict[str, list[tuple[str, Spec]]] | None = None
+        self.statuses: dict[str, PluginStatus] = {}
+        for entry_point in sorted(importlib.metadata.entry_points(group=GROUP), key=_order):
+            dist = entry_point.dist
+            source, version = (dist.name, dist.version) if dist else ("unknown", None)
+            self._load(PluginStatus(entry_point.name, source, version), entry_point.load)
+        loose = Path.cwd() / LOOSE_FILE
+        found = [*([loose] if loose.is_file() else []), *files]
+        for path in {path.resolve(): path for path in found}.values():
+            name = path.parent.name if path.stem == "domain" else path.stem
+            load: Callable[[Path], object] = (
+                DomainFile if path.suffix in (".yaml", ".yml") else import_loose_file
+            )
+            self._load(PluginStatus(name, str(path)), partial(load, path))
+
+    def _load(self, status: PluginStatus, load: Callable[[], Any]) -> None:
+        if status.name in self.statuses:
+            other = self.statuses[status.name]
+            status = PluginStatus(f"{status.name} ({status.source})", status.source, status.version)
+            self._refuse(status, f"the name is taken by the plugin of {other.source}")
+            return
+        self.statuses[status.name] = status
+        try:
+            with blame(f"plugin {status.name}"):
+                plugin = load()
+                self._refuse_misspelled(plugin)
+                self._manager.register(plugin, name=status.name)
+        except Proc3sError as error:
+            self._refuse(status, error)
+
+    def _fail(self, status: PluginStatus, error: Proc3sError | str) -> None:
+        """Record a failure; the plugin is not called again."""
+        text = str(error)
+        self.statuses[status.name] = PluginStatus(status.name, status.source, status.version, text)
+        if self._manager.has_plugin(status.name):
+            self._manager.unregister(name=status.name)
+
+    def _refuse(self, status: PluginStatus, error: Proc3sError | str) -> None:
+        """`_fail`, and a failure in a file that the user named is the user's to see at once."""
+        self._fail(status, error)
+        if status.source in self._explicit:
+            if isinstance(error, SpecError):
+                raise error
+            raise UsageError(f"plugin {status.source}: {self.statuses[status.name].error}")
+
+    def _refuse_misspelled(self, plugin: Any) -> None:
+        known = {name for name in vars(hookspecs) if hasattr(getattr(hookspecs, name), "proc3s_spec")}
+        for name in dir(plugin):
+            if hasattr(getattr(plugin, name, None), "proc3s_impl") and name not in known:
+                raise UsageError(f"there is no hook {name!r}{did_you_mean(name, known)}")
+
+    @property
+    def failures(self) -> list[PluginStatus]:
+        """The plugins that did not load, or whose hooks raised."""
+        return [status for status in self.statuses.values() if status.error is not None]
+
+    def specs(self, kind: str) -> list[tuple[str, Spec]]:
+        """(plugin name, spec) of everything that `register_<kind>` brings.
+
+        Each plugin is asked once for all kinds. One that raises, or brings what another has brought before
+        it, is refused with all that it brings.
+        """
+        if self._registered is None:
+            self._registered = self._ask_all()
+        return self._registered.get(kind, [])
+
+    def _ask_all(self) -> dict[str, list[tuple[str, Spec]]]:
+        registered: dict[str, list[tuple[str, Spec]]] = {}
+        taken: dict[tuple[str, str], str] = {}
+        for name in list(self.statuses):
+            try:
+                found = self._ask(name)
+                mine = self._names(name, found, taken)
+            except Proc3sError as error:
+                self._refuse(self.statuses[name], error)
+                continue
+            taken |= mine
+            for kind, spec in found:
+                registered.setdefault(kind, []).append((name, spec))
+        return registered
+
+    def _ask(self, name: str) -> list[tuple[str, Spec]]:
+        """(kind of the hook, spec) of all that a plugin brings. Raises Proc3sError."""
+        found: list[tuple[str, Spec]] = []
+        plugin = self._manager.get_plugin(name)
+        for hook in (name for name in vars(hookspecs) if name.startswith("register_")):
+            register, kind = getattr(plugin, hook, None), hook.removeprefix("register_")
+            if register is not None and hasattr(register, "proc3s_impl"):
+                add = partial(_add, found, kind)
+                with blame(f"plugin {name}"):
+                    register(add)
+        return found
+
+    def _names(
+        self, plugin: str, found: Sequence[tuple[str, Spec]], taken: Mapping[tuple[str, str], str]
+    ) -> dict[tuple[str, str], str]:
+        """The names that a plugin takes, by kind. Raises SpecError for one that is taken."""
+        mine: dict[tuple[str, str], str] = {}
+        for _, spec in found:
+            key = spec.kind, str(getattr(spec, "name"))  # noqa: B009 - every registered kind has a name
+            if first := {**taken, **mine}.get(key):
+                both = " and ".join(f"{n} ({self.statuses[n].source})" for n in (first, plugin))
+                message = f"{key[1]!r} is registered by both {both}; the first one counts"
+                raise SpecError([Issue(f"plugin {plugin}", key[0], message)])
+            mine[key] = plugin
+        return mine
+
+    def resolve_llm(self, model: str) -> Spec | None:
+        """The spec of the backend that a plugin offers for a model name."""
+        return next((spec for spec in self._call("resolve_llm", model=model) if isinstance(spec, Spec)), None)
+
+    def prompt_context(self, problem: Any, method: Any) -> dict[str, Any]:
+        """What plugins add to the variables of the prompt."""
+        added: dict[str, Any] = {}
+        for context in self._call("prompt_context", problem=problem, method=method):
+            if isinstance(context, Mapping):
+                added.update(context)
+        return added
+
+    def on_event(self, event: Any) -> None:
+        """Tell every plugin."""
+        for _ in self._call("on_event", event=event):
+            pass
+
+    def _call(self, hook: str, **arguments: Any) -> Iterator[Any]:
+        """What each plugin answers; one that raises is recorded and never called again."""
+        for implementation in reversed(getattr(self._manager.hook, hook).get_hookimpls()):
+            try:
+                with blame(f"plugin {implementation.plugin_name}"):
+                    taken = {name: arguments[name] for name in implementation.argnames}
+                    answer = implementation.function(**taken)
+            except Proc3sError as error:
+                self._fail(self.statuses[implementation.plugin_name], error)
+            else:
+                yield answer
+
+
+def _order(entry_point: importlib.metadata.EntryPoint) -> tuple[bool, str]:
+    """Our own plugins first, then by the name of their distribution, however they were installed."""
+    name = entry_point.dist.name if entry_point.dist else ""
+    return name != GROUP, name
+
+
+def _add(found: list[tuple[str, Spec]], kind: str, spec: Spec) -> None:
+    found.append((kind, _checked(spec, f"register_{kind}")))
+
+
+def _checked(spec: Any, hook: str) -> Spec:
+    if not isinstance(spec, Spec):
+        raise TypeError(f"{hook} registers specs, not {type(spec).__name__}")
+    if not getattr(spec, "name", None):
+        raise TypeError(f"{hook} registers specs with a name, and this {type(spec).__name__} has none")
+    return spec

@@ -1,0 +1,1 @@
+"""From templates to messages, and from an answer to a program."""

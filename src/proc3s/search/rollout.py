@@ -1,0 +1,76 @@
+"""Carries a plan out in a world: the pure function that gives a trial."""
+
+import dataclasses
+from typing import Any
+
+from proc3s.domain.margins import Violation, check
+from proc3s.domain.state import State
+from proc3s.domain.values import Plan
+from proc3s.domain.world import Score, World
+from proc3s.search.prefix_cache import Failed, Prefix, Prefixes
+from proc3s.search.problem import Problem, _score
+from proc3s.search.trial import Trial
+from proc3s.search.watch import watch
+
+
+def rollout(world: World[Any], problem: Problem, plan: Plan, prefixes: Prefixes | None = None) -> Trial:
+    """Carry a plan out in a world up to its first violating step; the goal is the last step if it counts.
+
+    Pure: the verdict depends on the problem and the plan alone. `prefixes` saves time, and changes nothing.
+    """
+    trial, final = carry_out(world, problem, plan, prefixes=prefixes or Prefixes(0))
+    if not problem.check_goal or not trial.accepted:
+        return trial
+    score, reason = judge(problem, final, plan)
+    if score is None or score.reached:
+        return trial
+    miss = Violation("goal", len(plan), "goal", -1.0, reason)
+    return dataclasses.replace(trial, violations=(miss,))
+
+
+def carry_out(
+    world: World[Any], problem: Problem, plan: Plan, stop: bool = True, prefixes: Prefixes | None = None
+) -> tuple[Trial, State]:
+    """The trial of a plan, and the state in which it ended; without `stop` it goes on after violations."""
+    prefixes, within = prefixes or Prefixes(0), watch().within
+    known = prefixes.longest(plan)
+    if known is None:
+        with within(problem.step_limit, "the reset of the world"):
+            world.reset(problem.initial)
+        state, margins = problem.initial, []
+    else:
+        world.resume(known.snapshot)
+        state, margins = known.state, list(known.margins)
+    if stop and (failed := prefixes.failure(known, plan[len(margins)])):
+        return Trial(plan, failed.violations, len(margins), failed.margins), failed.state
+    violations: list[Violation] = []
+    reached = len(plan)
+    for step in range(len(margins), len(plan)):
+        with within(problem.step_limit, f"skill {plan[step].skill} (step {step})"):
+            transition = world.step(plan[step])
+        state = transition.after
+        step_margins, found = check(problem.domain, transition, step)
+        margins.append(step_margins)
+        violations += found
+        if found:
+            reached = min(reached, step)
+            if stop:
+                prefixes.keep_failure(known, plan[step], Failed(tuple(found), state, tuple(margins)))
+                break
+        elif not violations:
+            longer = Prefix(world.snapshot, state, tuple(margins))
+            prefixes.keep(known, plan[step], longer)
+            known = longer
+    return Trial(plan, tuple(violations), reached, tuple(margins)), state
+
+
+def judge(problem: Problem, final: State, plan: Plan) -> tuple[Score | None, str]:
+    """All judges of the task must be satisfied; the reason of the first that is not, else of all."""
+    if problem.goal != problem.task.instruction:
+        return None, "nobody judges an instruction of your own"
+    scores = [_score(problem, target, final, plan) for target in problem.task.judge]
+    if not scores:
+        return None, "the task has no judge"
+    missed = [score for score in scores if not score.reached]
+    reason = missed[0].reason if missed else "; ".join(score.reason for score in scores)
+    return Score(not missed, reason), reason

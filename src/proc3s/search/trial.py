@@ -1,0 +1,44 @@
+"""The verdict on one sample."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from proc3s.domain.margins import Violation
+from proc3s.domain.values import Plan
+
+
+@dataclass(frozen=True)
+class Trial:
+    """The verdict on one sample: a plan rolled out, or the error of the program that made none.
+
+    `reached` counts the steps before the first violation. `margins` holds, per step that was carried
+    out, the margin of every constraint that applies, in its unit. `screen` names the screen that rejected
+    the plan. `rehearsals` counts those of the plan, `index` the samples of a problem from 0.
+    """
+
+    plan: Plan | None = None
+    violations: tuple[Violation, ...] = ()
+    reached: int = 0
+    margins: tuple[Mapping[str, float], ...] = ()
+    error: Exception | None = None
+    screen: str | None = None
+    rehearsals: int = 0
+    index: int = 0
+    u: tuple[float, ...] = ()
+
+    @property
+    def accepted(self) -> bool:
+        """Whether the world carried the plan out without a violation."""
+        return self.plan is not None and not self.violations
+
+    @property
+    def progress(self) -> float:
+        """How far the sample came, more is better: the steps before its violation, then how small that is.
+
+        The whole part counts the steps. A sample whose program failed comes last, with -1.
+        """
+        if self.error is not None:
+            return -1.0
+        # The first violation only: a screen names no others, and the order must not depend on who rejected.
+        violation = -self.violations[0].margin if self.violations else 0.0
+        return self.reached + 1 / (1 + max(violation, 0.0))
