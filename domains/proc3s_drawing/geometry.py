@@ -113,7 +113,8 @@ def _canonical(lines: FloatArray) -> FloatArray:
     pairs = [sorted([line[:2], line[2:]]) for line in lines.tolist()]
     strokes = np.unique(np.reshape(pairs, (-1, 2, 2)), axis=0)
     length: FloatArray = np.linalg.norm(strokes[:, 1] - strokes[:, 0], axis=1)
-    return strokes[length > DOT * length.max(initial=0.0)]
+    longer: FloatArray = strokes[length > DOT * length.max(initial=0.0)]
+    return longer
 
 
 def _crossings(strokes: FloatArray) -> FloatArray:

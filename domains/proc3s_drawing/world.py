@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pymunk
 
-from proc3s import Margin, Plan, State, Transition, World
+from proc3s import FloatArray, Margin, Plan, State, Transition, World
 
 CANVAS_SIZE = 100.0
 CLEARANCE = 1.0
@@ -50,7 +50,8 @@ class Canvas(World[Stroke]):
 
     def draw(self, p1: tuple[float, float], p2: tuple[float, float]) -> Stroke:
         """Put a line on the canvas, whether it touches an obstacle or not."""
-        line = self.domain.states.types["DrawnLine"](*p1, *p2)
+        make_line: Any = self.domain.states.types["DrawnLine"]
+        line = make_line(*p1, *p2)
         lines = (*self.state.drawn_lines, line)
         self.state = dataclasses.replace(self.state, drawn_lines=lines)
         if not self._discs:
@@ -83,14 +84,13 @@ class Canvas(World[Stroke]):
         figure.savefig(path)
 
 
-def _distances(
-    centres: np.ndarray[Any, np.dtype[np.float64]], p1: tuple[float, float], p2: tuple[float, float]
-) -> np.ndarray[Any, np.dtype[np.float64]]:
+def _distances(centres: FloatArray, p1: tuple[float, float], p2: tuple[float, float]) -> FloatArray:
     """Distances of points, shape (n, 2), from a segment that may be a point."""
     start, along = np.array(p1), np.subtract(p2, p1)
     length2 = float(along @ along)
     t = np.clip((centres - start) @ along / length2, 0, 1) if length2 > 0 else np.zeros(len(centres))
-    return np.linalg.norm(centres - start - t[:, None] * along, axis=1)
+    distances: FloatArray = np.linalg.norm(centres - start - t[:, None] * along, axis=1)
+    return distances
 
 
 def draw_line(world: Canvas, p1_x: float, p1_y: float, p2_x: float, p2_y: float) -> Stroke:

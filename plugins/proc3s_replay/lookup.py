@@ -10,7 +10,7 @@ from pathlib import Path
 from proc3s import Completion, LLMError, Message, Request, Usage, digest
 from proc3s.errors import did_you_mean
 from proc3s.llm.recorder import Recording
-from proc3s.runs import folder as runs
+from proc3s.runs.reading import LOG
 from proc3s_replay.differences import difference
 
 _NUMBER = re.compile(r"(?<![\w.])[-+]?(\d+(\.\d*)?|\.\d+)([eE][-+]?\d+)?")
@@ -112,7 +112,7 @@ class Lookup:
         command = ["proc3s", "run", request.task, "--method", request.method, "--seed", str(request.seed)]
         many = request.candidate + request.sampling.n
         command += ["--candidates", str(many)] if many > 1 else []
-        kept = [] if (self.path / runs.LOG).is_file() else ["--record", str(self.record)]
+        kept = [] if (self.path / LOG).is_file() else ["--record", str(self.record)]
         return shlex.join([*command, "--llm", model, *kept])
 
 

@@ -11,7 +11,7 @@ from proc3s_solvers.batches import Batches, BatchSearch, furthest
 from proc3s_solvers.sampling import BELOW_ONE
 
 if TYPE_CHECKING:
-    from cma import CMAEvolutionStrategy  # type: ignore[import-untyped]
+    from cma import CMAEvolutionStrategy
 
 
 class CmaOptions(BaseModel):

@@ -13,8 +13,9 @@ from proc3s_tabletop.actions.disturbances import OFF, Disturbance
 from proc3s_tabletop.actions.execution import Execution
 from proc3s_tabletop.actions.reference import Reference
 from proc3s_tabletop.actions.table import Table
-from proc3s_tabletop.bullet.scene import Snapshot
 from proc3s_tabletop.catalogue.body_specs import bodies_of, body_of
+from proc3s_tabletop.engine.choice import engine
+from proc3s_tabletop.engine.snapshot import Snapshot
 from proc3s_tabletop.objects.body import Body
 from proc3s_tabletop.objects.shapes import Mesh
 from proc3s_tabletop.robot import frames as poses
@@ -125,10 +126,8 @@ class TabletopWorld(World[Telemetry]):
 
     def render(self, plan: Plan, path: Path) -> None:
         """Draw the world after a plan, and at `path` with `-step0`, `-step1`, ... where each step led."""
-        from proc3s_tabletop.bullet.pictures import draw
-
         colors = {name: getattr(thing, "color", "") for name, thing in self.state.objects.items()}
-        draw(self._bodies, colors, self._film, path)
+        engine().draw(self._bodies, colors, self._film, path)
 
     def facts(self) -> list[str]:
         """How far convex pieces are from their mesh: the 95th percentile of the surfaces' distance."""

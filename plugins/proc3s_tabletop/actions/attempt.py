@@ -4,7 +4,7 @@ import dataclasses
 from typing import Any, NoReturn
 
 from proc3s import FloatArray
-from proc3s_tabletop.bullet.scene import Scene
+from proc3s_tabletop.engine.protocol import Simulation
 from proc3s_tabletop.robot.settings import ReferenceSettings
 from proc3s_tabletop.telemetry import Attempted, Clearance, Stage, Telemetry, least
 
@@ -16,7 +16,7 @@ class Stopped(Exception):
 class Attempt:
     """Carries the telemetry of an action from stage to stage; `grasp` (4, 4) is where it is commanded to."""
 
-    def __init__(self, scene: Scene, attempted: Attempted, grasp: FloatArray) -> None:
+    def __init__(self, scene: Simulation, attempted: Attempted, grasp: FloatArray) -> None:
         self.scene = scene
         self.recipe: ReferenceSettings = scene.recipe
         held = scene.held.name if scene.held else None

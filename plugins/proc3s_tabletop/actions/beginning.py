@@ -5,14 +5,14 @@ from collections.abc import Iterator, Mapping
 from contextlib import closing
 from typing import Any
 
-from proc3s_tabletop.bullet.contacts import DISTANCE
-from proc3s_tabletop.bullet.grip_cache import ALOFT
-from proc3s_tabletop.bullet.hand import FloatingHand
-from proc3s_tabletop.bullet.simulation import Things
 from proc3s_tabletop.constraints import called
+from proc3s_tabletop.engine.choice import engine
+from proc3s_tabletop.engine.protocol import HandSimulation
+from proc3s_tabletop.engine.values import ALOFT
 from proc3s_tabletop.objects.body import Body
 from proc3s_tabletop.robot.frames import Frame
 from proc3s_tabletop.robot.settings import ReferenceSettings, inside_table
+from proc3s_tabletop.telemetry import TABLE
 
 SUNK = 0.001
 """What is deeper than this in something else is pushed out of it, m; shapes have margins."""
@@ -27,8 +27,8 @@ def flaws_of(
         for name, frame in frames.items()
         if (inside := inside_table(*frame.position[:2])) < 0
     ]
-    with closing(Things(bodies, ReferenceSettings(), FloatingHand)) as things:
-        things.robot.put(*ALOFT)  # type: ignore[attr-defined]
+    with closing(engine().hand_scene(bodies, ReferenceSettings())) as things:
+        things.hand.put(*ALOFT)
         things.bring_back(frames)
         for one, other, depth in _overlaps(things):
             what, where = called(objects, one), called(objects, other)
@@ -36,10 +36,8 @@ def flaws_of(
     return flaws
 
 
-def _overlaps(things: Things) -> Iterator[tuple[str, str, float]]:
+def _overlaps(things: HandSimulation) -> Iterator[tuple[str, str, float]]:
     """Pairs of names, and how deep they are in one another, m."""
-    for one, other in itertools.combinations(things.names, 2):
-        points = things.client.getClosestPoints(one, other, 0.0)
-        depth = max((-float(point[DISTANCE]) for point in points), default=0.0)
-        if depth > SUNK:
-            yield things.names[one], things.names[other], depth
+    for one, other in itertools.combinations((*things.names, TABLE), 2):
+        if (depth := things.depth(one, other)) > SUNK:
+            yield one, other, depth

@@ -11,9 +11,6 @@ from proc3s_tabletop.actions.motion import line_down
 from proc3s_tabletop.actions.motors import ITERATIONS, Motors
 from proc3s_tabletop.actions.outcome import compare, note_bounds
 from proc3s_tabletop.actions.table import Table
-from proc3s_tabletop.bullet.contacts import grip_force, hand_clearances
-from proc3s_tabletop.bullet.forces import Guard, between_pads, support
-from proc3s_tabletop.bullet.settle import settle
 from proc3s_tabletop.robot.frames import Frame, Held
 from proc3s_tabletop.telemetry import Attempted, Telemetry, displacement, least
 
@@ -61,16 +58,16 @@ def pick(attempt: Attempt, grasp: FloatArray) -> None:
     motors.fingers(0.0)
     motors.to(line.q[0])
     motors.down(line)
-    attempt.note_clearance(least([*hand_clearances(scene).values()]))
+    attempt.note_clearance(least([*scene.hand_clearances().values()]))
     motors.fingers(attempt.recipe.finger_closed)
-    name = between_pads(scene)
+    name = scene.between_pads()
     gripped = _note_grip(attempt, name) if name else None
     motors.up(line)
     if gripped:
         _note_slip(attempt, gripped)
-    lifted = between_pads(scene)
+    lifted = scene.between_pads()
     scene.held = Held(lifted, scene.in_tool(lifted)) if lifted else None
-    attempt.note(at_rest=settle(scene, [*scene.loose()]))
+    attempt.note(at_rest=scene.settle([*scene.loose()]))
     compare(attempt, before)
 
 
@@ -81,7 +78,7 @@ def place(attempt: Attempt, grasp: FloatArray) -> None:
     held = scene.held
     name = held.name if held else None
     motors.to(line.q[0])
-    guard = Guard(scene, name)
+    guard = scene.guard(name)
     motors.down(line, guard)
     if not guard.support and motors.height() < grasp[2, 3]:
         motors.to(line.q[-2])
@@ -92,13 +89,13 @@ def place(attempt: Attempt, grasp: FloatArray) -> None:
     scene.held = None
     height = motors.height() - float(grasp[2, 3])
     motors.fingers(scene.robot.angle_for(scene.robot.gap() + 2 * recipe.open_margin))
-    attempt.note_clearance(least([*hand_clearances(scene, name).values()]))
+    attempt.note_clearance(least([*scene.hand_clearances(name).values()]))
     motors.up(line)
     motors.fingers(0.0)
-    attempt.note(at_rest=settle(scene, [*scene.loose()]))
+    attempt.note(at_rest=scene.settle([*scene.loose()]))
     drop = _fall(attempt, baseline, name) if name and not guard.support else 0.0
     if name:
-        attempt.note(support=guard.support or support(scene, name), support_height=height - drop)
+        attempt.note(support=guard.support or scene.support(name), support_height=height - drop)
     compare(attempt, baseline, name, drop)
 
 
@@ -111,7 +108,7 @@ def _in_hand(attempt: Attempt) -> dict[str, Frame]:
 def _note_grip(attempt: Attempt, name: str) -> Held:
     """Note what is between the pads, and how it is held."""
     scene = attempt.scene
-    attempt.note(target=name, finger_gap=scene.robot.gap(), grip_force=grip_force(scene, name))
+    attempt.note(target=name, finger_gap=scene.robot.gap(), grip_force=scene.grip_force(name))
     return Held(name, scene.in_tool(name))
 
 

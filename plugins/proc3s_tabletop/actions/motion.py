@@ -7,7 +7,7 @@ import numpy as np
 
 from proc3s import FloatArray
 from proc3s_tabletop.actions.attempt import Attempt
-from proc3s_tabletop.bullet.contacts import deepest, held_touches, robot_contact
+from proc3s_tabletop.engine.values import deepest
 from proc3s_tabletop.robot import ik
 from proc3s_tabletop.robot.grasp_frames import tool_poses, tool_to_grasp
 from proc3s_tabletop.robot.settings import TABLE_BOUNDS
@@ -82,7 +82,7 @@ def put(attempt: Attempt, q: FloatArray) -> None:
     scene = attempt.scene
     scene.robot.put_arm(q)
     scene.carry()
-    scene.client.performCollisionDetection()
+    scene.detect()
 
 
 def contact(attempt: Attempt, gripped: str | None = None, with_held: bool = True) -> Clearance | None:
@@ -91,8 +91,8 @@ def contact(attempt: Attempt, gripped: str | None = None, with_held: bool = True
     The hand may touch `gripped`. `with_held` False leaves out what the held object touches.
     """
     scene = attempt.scene
-    touches = held_touches(scene, scene.held.name) if scene.held and with_held else []
-    return least([robot_contact(scene, gripped), deepest(touches)])
+    touches = scene.held_touches(scene.held.name) if scene.held and with_held else []
+    return least([scene.robot_contact(gripped), deepest(touches)])
 
 
 def follow(attempt: Attempt, q: FloatArray, stage: Stage, gripped: str | None = None) -> None:

@@ -7,7 +7,7 @@ import numpy as np
 
 from proc3s import FloatArray
 from proc3s_tabletop.actions.motion import Line
-from proc3s_tabletop.bullet.scene import Scene
+from proc3s_tabletop.engine.protocol import Simulation
 
 ITERATIONS = 200
 """Of the solver: the arm's joints, the linkage and the pads have to converge together (measured)."""
@@ -38,7 +38,7 @@ STALL = 12
 class Motors:
     """Moves the arm of a scene along joint angles with a smooth start and end, in real time."""
 
-    def __init__(self, scene: Scene) -> None:
+    def __init__(self, scene: Simulation) -> None:
         self._scene = scene
         self._robot = scene.robot
         self._recipe = scene.recipe

@@ -1,19 +1,16 @@
 """What an action came to: everything at rest, what moved, what left the table."""
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
 
 from proc3s_tabletop.actions.attempt import Attempt
-from proc3s_tabletop.bullet.scene import Snapshot
+from proc3s_tabletop.engine.protocol import GripSimulation
+from proc3s_tabletop.engine.snapshot import Snapshot
 from proc3s_tabletop.robot.frames import Frame
+from proc3s_tabletop.robot.settings import inside_table
 from proc3s_tabletop.telemetry import Bound, displacement
 
-if TYPE_CHECKING:
-    from proc3s_tabletop.bullet.grip_cache import GripSimulator
-from proc3s_tabletop.robot.settings import inside_table
 
-
-def rest(attempt: Attempt, bench: "GripSimulator", names: Sequence[str]) -> None:
+def rest(attempt: Attempt, bench: GripSimulation, names: Sequence[str]) -> None:
     """Let objects come to rest, if there are any; all others are at rest."""
     scene = attempt.scene
     found = bench.rest(scene.lies(names)) if names else None

@@ -9,29 +9,27 @@ from proc3s.domain.transforms import matrices
 from proc3s_tabletop.actions.attempt import Attempt
 from proc3s_tabletop.actions.motion import Line, contact, follow, line_down, put, travel
 from proc3s_tabletop.actions.outcome import compare, rest
-from proc3s_tabletop.bullet.contacts import company, hand_clearances
-from proc3s_tabletop.bullet.grip_cache import GripSimulator
-from proc3s_tabletop.bullet.rays import cover
+from proc3s_tabletop.engine.protocol import GripSimulation
 from proc3s_tabletop.robot import frames as poses
 from proc3s_tabletop.robot.frames import Frame, Held
 from proc3s_tabletop.robot.widths import too_wide
 from proc3s_tabletop.telemetry import Clearance, least
 
 
-def pick(attempt: Attempt, grasp: FloatArray, bench: GripSimulator) -> None:
+def pick(attempt: Attempt, grasp: FloatArray, bench: GripSimulation) -> None:
     """Grasp what is at a pose (4, 4) of the grasp point and lift it."""
     if attempt.scene.held:
         attempt.stop("hand")
     line = line_down(attempt, grasp)
     travel(attempt, line.q[0], "approach")
     follow(attempt, line.q[1:], "approach")
-    near = hand_clearances(attempt.scene)
+    near = attempt.scene.hand_clearances()
     attempt.note_clearance(least([*near.values()]))
     name = between_fingers(attempt)
     # What neither the hand nor the object can reach, even through others, takes no part.
     touchable = [other for other, c in near.items() if c.distance < attempt.recipe.stir]
-    there = company(attempt.scene, [name, *touchable])
-    others = [other for other in attempt.scene.bodies if other in there - {name}]
+    there = attempt.scene.company([name, *touchable])
+    others = [other for other in attempt.scene.names if other in there - {name}]
     grip(attempt, bench, name, others)
     lift(attempt, bench, line, name, others)
 
@@ -41,7 +39,7 @@ def between_fingers(attempt: Attempt) -> str:
 
     Friction alone would hold what is gripped by an edge; a real grip would not, hence the least cover.
     """
-    shares = cover(attempt.scene)
+    shares = attempt.scene.cover()
     name = max(shares, key=lambda n: shares[n], default=None)
     most = shares[name] if name else 0.0
     attempt.note(cover=most, target=name if most > 0 else None)
@@ -63,7 +61,7 @@ def note_width(attempt: Attempt, grasp: FloatArray) -> None:
             attempt.note(too_wide=name)
 
 
-def grip(attempt: Attempt, bench: GripSimulator, name: str, others: list[str]) -> None:
+def grip(attempt: Attempt, bench: GripSimulation, name: str, others: list[str]) -> None:
     """Close the fingers on an object and shake it; what lies near enough to be touched takes part."""
     scene, names = attempt.scene, [name, *others]
     found = bench.grip(Frame(*scene.robot.tool()), scene.lies(names), scene.recipe.speed)
@@ -84,7 +82,7 @@ def _named(found: Clearance | None, names: list[str]) -> Clearance | None:
     return dataclasses.replace(found, other=names[int(found.other)])
 
 
-def lift(attempt: Attempt, bench: GripSimulator, line: Line, name: str, others: list[str]) -> None:
+def lift(attempt: Attempt, bench: GripSimulation, line: Line, name: str, others: list[str]) -> None:
     """Back up with the object fixed to the hand, then let the others come to rest."""
     up, heights = line.q[-2::-1], line.heights[-2::-1]
     for q, height in zip(up, heights, strict=True):

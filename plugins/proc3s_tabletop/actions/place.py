@@ -8,15 +8,8 @@ from proc3s import FloatArray
 from proc3s_tabletop.actions.attempt import Attempt
 from proc3s_tabletop.actions.motion import Line, contact, follow, line_down, put, travel
 from proc3s_tabletop.actions.outcome import compare, rest
-from proc3s_tabletop.bullet.contacts import (
-    Touch,
-    company,
-    deepest,
-    hand_clearances,
-    held_touches,
-    robot_contact,
-)
-from proc3s_tabletop.bullet.grip_cache import GripSimulator
+from proc3s_tabletop.engine.protocol import GripSimulation
+from proc3s_tabletop.engine.values import Touch, deepest
 from proc3s_tabletop.robot.frames import Frame
 from proc3s_tabletop.telemetry import Clearance, least
 
@@ -36,7 +29,7 @@ class Stand(NamedTuple):
     obstruction: Obstruction | None
 
 
-def place(attempt: Attempt, grasp: FloatArray, bench: GripSimulator) -> None:
+def place(attempt: Attempt, grasp: FloatArray, bench: GripSimulation) -> None:
     """Set the held object down at a pose (4, 4) of the grasp point and leave it."""
     scene = attempt.scene
     if not scene.held:
@@ -97,7 +90,7 @@ def _bisect(attempt: Attempt, free: Stand, blocked: Stand, name: str) -> Stand:
 
 def _obstruction(attempt: Attempt, q: FloatArray, name: str) -> Obstruction | None:
     put(attempt, q)
-    found = Obstruction(robot_contact(attempt.scene, name), held_touches(attempt.scene, name))
+    found = Obstruction(attempt.scene.robot_contact(name), attempt.scene.held_touches(name))
     return found if found.robot or found.held else None
 
 
@@ -129,21 +122,23 @@ def _lowered(attempt: Attempt, name: str, start: Frame, drop: float) -> list[Tou
     """What the object would touch lower down."""
     x, y, z = start.position
     attempt.scene.put(name, Frame((x, y, z - drop), start.rotation))
-    attempt.scene.client.performCollisionDetection()
-    return held_touches(attempt.scene, name)
+    attempt.scene.detect()
+    return attempt.scene.held_touches(name)
 
 
-def release(attempt: Attempt, bench: GripSimulator, line: Line, stand: Stand, name: str, drop: float) -> None:
+def release(
+    attempt: Attempt, bench: GripSimulation, line: Line, stand: Stand, name: str, drop: float
+) -> None:
     """Open no further than needed, go up, and let everything come to rest; the baseline is taken before."""
     scene, robot = attempt.scene, attempt.scene.robot
     scene.held = None
     baseline = scene.frames()
-    attempt.note_clearance(least([*hand_clearances(scene, name).values()]))
+    attempt.note_clearance(least([*scene.hand_clearances(name).values()]))
     open_fingers(attempt, stand, name)
     above = line.q[line.heights > stand.height + 1e-9][::-1]
     follow(attempt, np.vstack([stand.q, above]), "release")
-    near = company(scene, [name, *scene.near(name, attempt.recipe.fall)])
-    rest(attempt, bench, [name, *(other for other in scene.bodies if other in near - {name})])
+    near = scene.company([name, *scene.near(name, attempt.recipe.fall)])
+    rest(attempt, bench, [name, *(other for other in scene.names if other in near - {name})])
     compare(attempt, baseline, name, drop)
     robot.put_arm(line.q[0])
     robot.put_fingers(0.0)
@@ -161,4 +156,4 @@ def open_fingers(attempt: Attempt, stand: Stand, name: str) -> None:
         found = contact(attempt, gripped)
         if found:
             attempt.stop("release", found)
-    attempt.note_clearance(least([*hand_clearances(scene, name).values()]))
+    attempt.note_clearance(least([*scene.hand_clearances(name).values()]))

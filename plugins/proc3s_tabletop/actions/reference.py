@@ -10,7 +10,7 @@ from proc3s_tabletop.actions.outcome import note_bounds
 from proc3s_tabletop.actions.pick import note_width, pick
 from proc3s_tabletop.actions.place import place
 from proc3s_tabletop.actions.table import Table
-from proc3s_tabletop.bullet.grip_cache import GripSimulator
+from proc3s_tabletop.engine.choice import engine
 from proc3s_tabletop.objects.body import Body
 from proc3s_tabletop.robot.frames import Frame
 from proc3s_tabletop.robot.settings import SAME_GRASP, ReferenceSettings
@@ -27,7 +27,7 @@ class Reference(Table):
         self, bodies: Mapping[str, Body], frames: Mapping[str, Frame], recipe: ReferenceSettings | None = None
     ) -> None:
         super().__init__(bodies, frames, recipe)
-        self._bench = GripSimulator(bodies, self.scene.recipe)
+        self._bench = engine().grips(bodies, self.scene.recipe)
 
     def pick_at(self, grasp: FloatArray) -> Telemetry:
         """Grasp and lift; ends early where that fails."""

@@ -8,7 +8,9 @@ import numpy as np
 
 from proc3s import FloatArray
 from proc3s.domain.transforms import matrices
-from proc3s_tabletop.bullet.scene import Scene, Snapshot
+from proc3s_tabletop.engine.choice import engine
+from proc3s_tabletop.engine.protocol import Simulation
+from proc3s_tabletop.engine.snapshot import Snapshot
 from proc3s_tabletop.objects.body import Body
 from proc3s_tabletop.robot import frames as poses
 from proc3s_tabletop.robot.frames import Frame
@@ -26,12 +28,12 @@ class Table(ABC):
     def __init__(
         self, bodies: Mapping[str, Body], frames: Mapping[str, Frame], recipe: ReferenceSettings | None = None
     ) -> None:
-        self.scene = Scene(bodies, recipe or ReferenceSettings())
+        self.scene: Simulation = engine().scene(bodies, recipe or ReferenceSettings())
         self.put(frames)
 
     def put(self, frames: Mapping[str, Frame]) -> None:
         """Start again, empty-handed, with every body at its frame."""
-        self.snapshot = Snapshot(tuple((name, frames[name]) for name in self.scene.bodies))
+        self.snapshot = Snapshot(tuple((name, frames[name]) for name in self.scene.names))
 
     def set_speed(self, speed: float) -> None:
         """Scale the speed of arm and fingers."""
@@ -86,5 +88,5 @@ class Table(ABC):
         return None
 
     def close(self) -> None:
-        """Give up the simulator."""
+        """Release the simulator."""
         self.scene.close()

@@ -1,10 +1,54 @@
 """Shapes as PyBullet takes them: one collision shape for every kind of body."""
 
+import functools
 from collections.abc import Sequence
 from pathlib import Path
 
 from proc3s import FloatArray
 from proc3s_tabletop.bullet.client import Client
+from proc3s_tabletop.objects.body import Body
+from proc3s_tabletop.objects.shapes import Bowl, Box, Cylinder, Mesh, Shape
+
+
+def create(body: Body, client: Client, folder: Path, parked: tuple[float, float, float]) -> int:
+    """Put a body into a client, far away; returns its PyBullet id. Files that are read go to `folder`."""
+    made = int(client.createMultiBody(body.mass, collision_shape(body.shape, client, folder), -1, parked))
+    client.changeDynamics(
+        made,
+        -1,
+        lateralFriction=body.friction,
+        rollingFriction=body.rolling_friction,
+        spinningFriction=body.spinning_friction,
+    )
+    return made
+
+
+@functools.singledispatch
+def collision_shape(shape: Shape, client: Client, folder: Path) -> int:
+    """The PyBullet id of a shape; files that PyBullet reads from go to `folder`."""
+    raise TypeError(f"no collision shape is known for a {type(shape).__name__}")
+
+
+@collision_shape.register
+def _(shape: Box, client: Client, folder: Path) -> int:
+    half = [edge / 2 for edge in shape.size]
+    return int(client.createCollisionShape(client.GEOM_BOX, halfExtents=half))
+
+
+@collision_shape.register
+def _(shape: Cylinder, client: Client, folder: Path) -> int:
+    kind = client.GEOM_CYLINDER
+    return int(client.createCollisionShape(kind, radius=shape.radius, height=shape.height))
+
+
+@collision_shape.register
+def _(shape: Bowl, client: Client, folder: Path) -> int:
+    return compound(shape.parts(), client, folder / "bowl.obj")
+
+
+@collision_shape.register
+def _(shape: Mesh, client: Client, folder: Path) -> int:
+    return compound(shape.pieces, client, folder / f"{shape.key[:16]}.obj")
 
 
 def compound(pieces: Sequence[FloatArray], client: Client, path: Path) -> int:

@@ -1,23 +1,17 @@
 """What touches what: contacts after a collision detection, and clearances, with the names of both bodies."""
 
 from collections.abc import Iterable
-from typing import Any, NamedTuple
+from typing import Any
 
 from proc3s_tabletop.bullet.simulation import Things
-from proc3s_tabletop.telemetry import Clearance, Vector, least
+from proc3s_tabletop.engine.values import Touch
+from proc3s_tabletop.telemetry import Clearance, least
 
 # Where PyBullet's contact points have what.
 BODY_B, LINK_A, LINK_B, NORMAL, DISTANCE, FORCE = 2, 3, 4, 7, 8, 9
 
 _TOUCHING = 0.001
 """Bodies nearer than this hold one another, m."""
-
-
-class Touch(NamedTuple):
-    """A contact of the held object, and the direction in which the other body pushes it."""
-
-    clearance: Clearance
-    normal: Vector
 
 
 def robot_contact(scene: Things, gripped: str | None = None) -> Clearance | None:
@@ -30,24 +24,19 @@ def _robot_contact(scene: Things, point: Any, gripped: str | None) -> Clearance 
     robot, other = scene.robot, point[BODY_B]
     if other == robot.id:
         return Clearance(point[DISTANCE], robot.part(point[LINK_A]), robot.part(point[LINK_B]))
-    if scene.names[other] == gripped and point[LINK_A] in robot.hand_links:
+    if scene.named[other] == gripped and point[LINK_A] in robot.hand_links:
         return None
-    return Clearance(point[DISTANCE], robot.part(point[LINK_A]), scene.names[other])
+    return Clearance(point[DISTANCE], robot.part(point[LINK_A]), scene.named[other])
 
 
 def held_touches(scene: Things, name: str) -> list[Touch]:
     """What an object in hand touches, the robot apart."""
     points = scene.client.getContactPoints(scene.bodies[name])
     return [
-        Touch(Clearance(p[DISTANCE], name, scene.names[p[BODY_B]]), p[NORMAL])
+        Touch(Clearance(p[DISTANCE], name, scene.named[p[BODY_B]]), p[NORMAL])
         for p in points
         if p[BODY_B] != scene.robot.id and p[DISTANCE] < -scene.recipe.touch
     ]
-
-
-def deepest(touches: list[Touch]) -> Clearance | None:
-    """The deepest contact."""
-    return least([touch.clearance for touch in touches])
 
 
 def grip_force(scene: Things, name: str) -> float:
@@ -59,7 +48,7 @@ def grip_force(scene: Things, name: str) -> float:
 def hand_clearances(scene: Things, gripped: str | None = None) -> dict[str, Clearance]:
     """The smallest distance of the robot to everything near but the gripped object, by name."""
     robot, found = scene.robot, {}
-    for other, name in scene.names.items():
+    for other, name in scene.named.items():
         if name != gripped:
             points = scene.client.getClosestPoints(robot.id, other, scene.recipe.near)
             clearance = least(

@@ -1,13 +1,13 @@
 """What presses on what while time passes: contacts that carry a force, by name."""
 
 from proc3s_tabletop.bullet.contacts import BODY_B, FORCE, LINK_A, NORMAL, grip_force
-from proc3s_tabletop.bullet.scene import Scene
+from proc3s_tabletop.bullet.simulation import Things
 
 GUARD = 2.0
 """A force that stops a guarded descent, newtons: three times the weight of a block."""
 
 
-def between_pads(scene: Scene) -> str | None:
+def between_pads(scene: Things) -> str | None:
     """The object that both sides of the hand press, the hardest first."""
     forces = {name: grip_force(scene, name) for name in scene.bodies}
     return _hardest({name: force for name, force in forces.items() if force > 0})
@@ -19,7 +19,7 @@ class Guard:
     `support` is then what the load has met, if it was the load.
     """
 
-    def __init__(self, scene: Scene, held: str | None) -> None:
+    def __init__(self, scene: Things, held: str | None) -> None:
         self._scene, self._held = scene, held
         self.support: str | None = None
 
@@ -27,7 +27,7 @@ class Guard:
         """Whether anything presses the hand or what it holds, each other apart."""
         scene, hand = self._scene, self._scene.robot.hand_links
         points = [p for p in scene.client.getContactPoints(scene.robot.id) if p[LINK_A] in hand]
-        force = sum(p[FORCE] for p in points if scene.names.get(p[BODY_B]) != self._held)
+        force = sum(p[FORCE] for p in points if scene.named.get(p[BODY_B]) != self._held)
         loads = _presses(scene, self._held)
         if force + sum(loads.values()) <= GUARD:
             return False
@@ -35,7 +35,7 @@ class Guard:
         return True
 
 
-def support(scene: Scene, name: str) -> str | None:
+def support(scene: Things, name: str) -> str | None:
     """What pushes an object up hardest."""
     return _hardest(_presses(scene, name))
 
@@ -44,11 +44,11 @@ def _hardest(forces: dict[str, float]) -> str | None:
     return max(forces, key=lambda n: forces[n], default=None)
 
 
-def _presses(scene: Scene, name: str | None) -> dict[str, float]:
+def _presses(scene: Things, name: str | None) -> dict[str, float]:
     """The bodies that press an object, the robot apart, and the upward part of how hard they do, newtons."""
     forces: dict[str, float] = {}
     for point in scene.client.getContactPoints(scene.bodies[name]) if name else ():
-        if point[BODY_B] in scene.names and point[FORCE] > 0:
-            other = scene.names[point[BODY_B]]
+        if point[BODY_B] in scene.named and point[FORCE] > 0:
+            other = scene.named[point[BODY_B]]
             forces[other] = forces.get(other, 0.0) + point[FORCE] * abs(point[NORMAL][2])
     return forces

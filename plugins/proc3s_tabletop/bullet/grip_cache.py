@@ -1,14 +1,13 @@
-"""The workbench: short simulations with a few things, carried out once for every way these things lie."""
+"""Grips and falls of a few things, simulated apart from the scene, once for every way these things lie."""
 
 import dataclasses
 import functools
 from collections.abc import Iterable, Iterator, Mapping
-from typing import NamedTuple, TypeAlias
 
-from proc3s_tabletop.bullet.grip_test import Grip, GripSetup, try_grip, upright
-from proc3s_tabletop.bullet.hand import FloatingHand
+from proc3s_tabletop.bullet.grip_test import GripSetup, try_grip, upright
+from proc3s_tabletop.bullet.hand_scene import HandScene
 from proc3s_tabletop.bullet.settle import settle
-from proc3s_tabletop.bullet.simulation import Things
+from proc3s_tabletop.engine.values import ALOFT, Grip, Lies, Rest
 from proc3s_tabletop.objects.body import Body
 from proc3s_tabletop.robot.frames import Frame, rounded
 from proc3s_tabletop.robot.settings import ReferenceSettings
@@ -18,19 +17,6 @@ MOST = 1024
 
 DIGITS = 6
 """Where things lie is rounded to so many, in m and in parts of a quaternion."""
-
-ALOFT = Frame((0.0, 0.0, 1.0), (1.0, 0.0, 0.0, 0.0))
-"""Where the hand touches nothing."""
-
-Lies: TypeAlias = tuple[tuple[Body, Frame], ...]
-"""Bodies and where they are."""
-
-
-class Rest(NamedTuple):
-    """Where things come to rest, in the order in which they were given, and whether they did in time."""
-
-    frames: tuple[Frame, ...]
-    at_rest: bool
 
 
 class GripSimulator:
@@ -42,7 +28,7 @@ class GripSimulator:
 
     def __init__(self, bodies: Mapping[str, Body], recipe: ReferenceSettings) -> None:
         self._bodies, self._recipe = bodies, recipe
-        self._made: Things | None = None
+        self._made: HandScene | None = None
         self._known_grip = functools.lru_cache(MOST)(self._grip)
         self._known_rest = functools.lru_cache(MOST)(self._rest)
 
@@ -61,7 +47,7 @@ class GripSimulator:
 
     def _grip(self, setup: GripSetup) -> Grip:
         names = list(self._stand_ins(setup.lies))
-        things, robot = self._things, self._hand
+        things, robot = self._things, self._things.hand
         robot.recipe = dataclasses.replace(self._recipe, speed=setup.speed)
         self._lay(names, setup.lies, setup.tool)
         return try_grip(things, names)
@@ -74,25 +60,19 @@ class GripSimulator:
         return Rest(tuple(self._things.frame(name) for name in names), at_rest)
 
     @property
-    def _things(self) -> Things:
+    def _things(self) -> HandScene:
         """The simulated bench, made when it is first needed."""
         if self._made is None:
-            self._made = Things(self._bodies, self._recipe, FloatingHand)
+            self._made = HandScene(self._bodies, self._recipe)
         return self._made
-
-    @property
-    def _hand(self) -> FloatingHand:
-        hand = self._things.robot
-        assert isinstance(hand, FloatingHand)
-        return hand
 
     def _lay(self, names: Iterable[str], lies: Lies, tool: Frame) -> None:
         """Put hand and things where they are to be, so that nothing earlier matters."""
-        self._hand.put(*ALOFT)
-        self._hand.put_fingers(0.0)
-        self._hand.drive_fingers(0.0)
+        self._things.hand.put(*ALOFT)
+        self._things.hand.put_fingers(0.0)
+        self._things.hand.drive_fingers(0.0)
         self._things.clear()
-        self._hand.put(*tool)
+        self._things.hand.put(*tool)
         self._things.bring_back({name: frame for name, (_, frame) in zip(names, lies, strict=True)})
 
     def _stand_ins(self, lies: Lies) -> Iterator[str]:

@@ -8,6 +8,7 @@ import numpy as np
 
 from proc3s_tabletop.bullet.contacts import grip_force, robot_contact
 from proc3s_tabletop.bullet.simulation import Things
+from proc3s_tabletop.engine.values import Grip
 from proc3s_tabletop.objects.body import Body
 from proc3s_tabletop.robot.frames import Frame
 from proc3s_tabletop.telemetry import TABLE, Stage, Telemetry, displacement
@@ -24,20 +25,6 @@ class GripSetup:
     speed: float
     tool: Frame
     lies: tuple[tuple[Body, Frame], ...]
-
-
-@dataclass(frozen=True)
-class Grip:
-    """What came of a grip; it failed where the telemetry has `ended`, and is left as it was then.
-
-    `held` is the target in the frame of tool0, `lies` where the others are, in the order of the set-up. The
-    telemetry names a body by its place in the set-up.
-    """
-
-    telemetry: Telemetry
-    angle: float
-    held: Frame
-    lies: tuple[Frame, ...]
 
 
 def upright(tool: Frame) -> Frame:

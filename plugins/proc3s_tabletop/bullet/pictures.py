@@ -9,8 +9,8 @@ import numpy as np
 
 from proc3s_tabletop.bullet.arm import Robot
 from proc3s_tabletop.bullet.client import Client
-from proc3s_tabletop.bullet.scene import Snapshot
 from proc3s_tabletop.bullet.visuals import color_of, create
+from proc3s_tabletop.engine.snapshot import Snapshot
 from proc3s_tabletop.objects.body import Body
 from proc3s_tabletop.robot.settings import TABLE_BOUNDS, ReferenceSettings
 

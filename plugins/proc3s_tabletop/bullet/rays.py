@@ -3,9 +3,7 @@
 import numpy as np
 
 from proc3s_tabletop.bullet.simulation import Things
-
-INSIDE = 0.85
-"""Rays run between the pads from this share of their distance, so that they start off the pads."""
+from proc3s_tabletop.robot.settings import INSIDE
 
 
 def cover(things: Things) -> dict[str, float]:

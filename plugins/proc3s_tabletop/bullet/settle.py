@@ -1,12 +1,8 @@
 """Letting the scene come to rest, and how far everything moved."""
 
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING
 
 from proc3s_tabletop.bullet.simulation import Things
-
-if TYPE_CHECKING:
-    pass
 
 
 def settle(things: Things, names: Sequence[str]) -> bool:

@@ -6,7 +6,9 @@ from pathlib import Path
 from typing import TypeAlias
 
 from proc3s_tabletop.bullet.client import Client
+from proc3s_tabletop.bullet.collision_shapes import create
 from proc3s_tabletop.bullet.hand import Hand
+from proc3s_tabletop.engine.values import Lies
 from proc3s_tabletop.objects.body import Body
 from proc3s_tabletop.robot.frames import Frame, Held
 from proc3s_tabletop.robot.settings import ReferenceSettings
@@ -35,11 +37,11 @@ class Things:
             self.table = self._table()
             self.robot = hand(client, recipe, Path(folder))
             self.bodies = {
-                name: body.create(client, Path(folder), _parked(k))
+                name: create(body, client, Path(folder), _parked(k))
                 for k, (name, body) in enumerate(bodies.items())
             }
-        self.shapes = dict(bodies)
-        self.names = {body: name for name, body in self.bodies.items()} | {self.table: TABLE}
+        self.shapes: Mapping[str, Body] = dict(bodies)
+        self.named = {body: name for name, body in self.bodies.items()} | {self.table: TABLE}
         self.held: Held | None = None
 
     def _table(self) -> int:
@@ -51,8 +53,13 @@ class Things:
         return table
 
     def close(self) -> None:
-        """Give up the client."""
+        """Release the client."""
         self.client.close()
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The bodies, in the order of the scene."""
+        return tuple(self.bodies)
 
     def clear(self) -> None:
         """Park every body, and forget all contacts.
@@ -63,8 +70,8 @@ class Things:
         for name in self.bodies:
             self.park(name)
             self.let_collide(name, True)
-        self.client.performCollisionDetection()
-        self.client.performCollisionDetection()
+        self.detect()
+        self.detect()
 
     def frame(self, name: str) -> Frame:
         """Where an object is."""
@@ -78,7 +85,7 @@ class Things:
         """The objects that are not in hand."""
         return (name for name in self.bodies if not self.held or name != self.held.name)
 
-    def lies(self, names: Iterable[str]) -> tuple[tuple[Body, Frame], ...]:
+    def lies(self, names: Iterable[str]) -> Lies:
         """Bodies and where they are."""
         return tuple((self.shapes[name], self.frame(name)) for name in names)
 
@@ -88,6 +95,17 @@ class Things:
         others = ((n, other) for n, other in self.bodies.items() if n != name)
         return [n for n, other in others if client.getClosestPoints(body, other, distance)]
 
+    def touched(self, name: str) -> set[str]:
+        """What an object touches after a tick, by name; the table is TABLE."""
+        client, body = self.client, self.bodies[name]
+        return {
+            n for other, n in self.named.items() if other != body and client.getContactPoints(body, other)
+        }
+
+    def detect(self) -> None:
+        """Find all contacts where everything is now, without letting time pass."""
+        self.client.performCollisionDetection()
+
     def put(self, name: str, frame: Frame) -> None:
         """Move an object, keeping its velocity."""
         self.client.resetBasePositionAndOrientation(self.bodies[name], *frame)
@@ -95,13 +113,6 @@ class Things:
     def park(self, name: str) -> None:
         """Move an object out of everything's way."""
         self.put(name, Frame(_parked(list(self.bodies).index(name)), (0.0, 0.0, 0.0, 1.0)))
-
-    def set_aside(self, names: Iterable[str]) -> dict[str, Frame]:
-        """Park objects that cannot matter for a while; returns where they were."""
-        frames = {name: self.frame(name) for name in names}
-        for name in frames:
-            self.park(name)
-        return frames
 
     def bring_back(self, frames: Mapping[str, Frame]) -> None:
         """Put objects back, at rest."""

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TypeAlias
 
 from proc3s_tabletop.bullet.client import Client
+from proc3s_tabletop.bullet.collision_shapes import collision_shape
 from proc3s_tabletop.objects.shapes import Bowl, Shape
 
 Color: TypeAlias = tuple[float, float, float, float]
@@ -32,7 +33,7 @@ def create(shape: Shape, client: Client, folder: Path, color: Color) -> int:
         path.write_text(_turned(_profile(shape)), encoding="ascii")
         surface = client.createVisualShape(client.GEOM_MESH, fileName=str(path), rgbaColor=color)
         return int(client.createMultiBody(0, -1, surface))
-    body = int(client.createMultiBody(0, shape.collision(client, folder), -1))
+    body = int(client.createMultiBody(0, collision_shape(shape, client, folder), -1))
     client.changeVisualShape(body, -1, rgbaColor=color)
     return body
 

@@ -69,7 +69,7 @@ def _read(path: Path) -> Arrays | None:
 
 def _write(path: Path, arrays: Arrays) -> None:
     buffer = io.BytesIO()
-    np.savez(buffer, **arrays)
+    np.savez(buffer, allow_pickle=False, **arrays)
     content = buffer.getvalue()
     with _whole(path) as file:
         file.write(_checksum(content) + b"\n" + content)

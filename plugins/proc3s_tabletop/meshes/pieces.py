@@ -75,4 +75,5 @@ def _shrunk(corners: FloatArray, by: float) -> FloatArray:
         normals = hull.equations[(hull.simplices == k).any(axis=1), :3]
         step, *_ = np.linalg.lstsq(normals, np.full(len(normals), -by), rcond=0.1)
         moved[k] += step
-    return moved[hull.vertices]
+    corners_of_hull: FloatArray = moved[hull.vertices]
+    return corners_of_hull

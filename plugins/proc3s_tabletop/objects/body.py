@@ -2,9 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 
-from proc3s_tabletop.bullet.client import Client
 from proc3s_tabletop.objects.shapes import Bowl, Box, Shape
 
 
@@ -30,19 +28,6 @@ class Body:
     def top(self) -> float:
         """How high it reaches above its centre of mass where it stands upright, m."""
         return float(self.shape.corners()[:, 2].max())
-
-    def create(self, client: Client, folder: Path, parked: tuple[float, float, float]) -> int:
-        """Put the body into a client, far away; returns its PyBullet id."""
-        shape = self.shape.collision(client, folder)
-        body = int(client.createMultiBody(self.mass, shape, -1, parked))
-        client.changeDynamics(
-            body,
-            -1,
-            lateralFriction=self.friction,
-            rollingFriction=self.rolling_friction,
-            spinningFriction=self.spinning_friction,
-        )
-        return body
 
 
 BLOCK_SIZE = 0.04

@@ -2,24 +2,21 @@
 
 import itertools
 import math
-from collections.abc import Sequence
+from collections.abc import Hashable, Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from proc3s import FloatArray
-from proc3s_tabletop.bullet.client import Client
-from proc3s_tabletop.bullet.collision_shapes import compound
 
 MARGIN = 0.001
 """PyBullet surrounds the corners of a mesh with this much, m (measured)."""
 
 
-class Shape(Protocol):
-    """Something that can be made a collision shape; its origin is its centre of mass.
+class Shape(Hashable, Protocol):
+    """Something that lies on the table; its origin is its centre of mass.
 
     Upright, that is without roll and pitch, it stands on the table.
     """
@@ -29,9 +26,6 @@ class Shape(Protocol):
 
     def parts(self) -> Sequence[FloatArray]:
         """The corners (n, 3) of convex parts that make it up, metres."""
-
-    def collision(self, client: Client, folder: Path) -> int:
-        """The PyBullet id of the shape; files that PyBullet reads from go to `folder`."""
 
 
 @dataclass(frozen=True)
@@ -48,11 +42,6 @@ class Box:
         """The box."""
         return [self.corners()]
 
-    def collision(self, client: Client, folder: Path) -> int:
-        """One primitive."""
-        half = [edge / 2 for edge in self.size]
-        return int(client.createCollisionShape(client.GEOM_BOX, halfExtents=half))
-
 
 @dataclass(frozen=True)
 class Cylinder:
@@ -68,11 +57,6 @@ class Cylinder:
     def parts(self) -> Sequence[FloatArray]:
         """The cylinder, as a prism."""
         return [self.corners()]
-
-    def collision(self, client: Client, folder: Path) -> int:
-        """One primitive."""
-        kind = client.GEOM_CYLINDER
-        return int(client.createCollisionShape(kind, radius=self.radius, height=self.height))
 
 
 @dataclass(frozen=True)
@@ -91,10 +75,6 @@ class Bowl:
     def corners(self) -> FloatArray:
         """Points on the foot and on the rim."""
         return _rings([(self.foot_radius, -self.height / 2), (self.rim_radius, self.height / 2)])
-
-    def collision(self, client: Client, folder: Path) -> int:
-        """Convex pieces: a disc and the wedges of the wall."""
-        return compound(self.parts(), client, folder / "bowl.obj")
 
     def parts(self) -> list[FloatArray]:
         """The corners of every convex piece, each of shape (corners, 3)."""
@@ -149,10 +129,6 @@ class Mesh:
     def parts(self) -> Sequence[FloatArray]:
         """The pieces, without their margin."""
         return self.pieces
-
-    def collision(self, client: Client, folder: Path) -> int:
-        """One hull a piece."""
-        return compound(self.pieces, client, folder / f"{self.key[:16]}.obj")
 
 
 def _box(size: tuple[float, float, float]) -> FloatArray:

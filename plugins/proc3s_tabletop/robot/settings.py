@@ -31,6 +31,9 @@ LEVER = 0.04
 SAME_GRASP = 1e-3
 """A place whose grasp is further from that of its pick names another one, m; a rad counts 40 mm."""
 
+INSIDE = 0.85
+"""Rays run between the pads from this share of their distance, so that they start off the pads."""
+
 
 @dataclass(frozen=True)
 class ReferenceSettings:

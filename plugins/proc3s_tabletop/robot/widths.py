@@ -35,7 +35,7 @@ def too_wide(shape: Shape, grasps: FloatArray) -> Bools:
             np.where(between, np.minimum(low, enters), low),
             np.where(between, np.maximum(high, leaves), high),
         )
-    wide: Bools = (high - low > WIDEST).any(axis=1)
+    wide: Bools = np.any(high - low > WIDEST, axis=1)
     return wide
 
 

@@ -105,7 +105,8 @@ class BatchScreening:
     def _called(self, row: int, step: int) -> str:
         """What the domain calls the skill of a step."""
         batch = self._batch
-        return batch.signatures[batch.skill[batch.start[row] + step]].skill
+        signature: Signature = batch.signatures[batch.skill[batch.start[row] + step]]
+        return signature.skill
 
     def called(self, name: str) -> str:
         """A body for people."""

@@ -8,11 +8,8 @@ import numpy as np
 
 from proc3s import FloatArray, Pose
 from proc3s.domain.transforms import matrices, numbers
-from proc3s_tabletop.bullet.contacts import DISTANCE
-from proc3s_tabletop.bullet.grip_cache import GripSimulator
-from proc3s_tabletop.bullet.hand import FloatingHand
-from proc3s_tabletop.bullet.rays import cover
-from proc3s_tabletop.bullet.simulation import Things
+from proc3s_tabletop.engine.choice import engine
+from proc3s_tabletop.engine.protocol import GripSimulation, HandSimulation
 from proc3s_tabletop.objects.body import Body
 from proc3s_tabletop.robot import frames as poses
 from proc3s_tabletop.robot.frames import Frame
@@ -97,23 +94,22 @@ class LoneGrasps:
             self._kept.add(kept)
 
     @functools.cached_property
-    def _things(self) -> Things:
+    def _things(self) -> HandSimulation:
         """The body at rest at the origin of a world of its own, and an open hand."""
-        things = Things({BODY: self._body}, self._recipe, FloatingHand)
-        things.robot.put_fingers(0.0)
+        things = engine().hand_scene({BODY: self._body}, self._recipe)
+        things.hand.put_fingers(0.0)
         things.put(BODY, _frame(self._there))
         return things
 
     @functools.cached_property
-    def _bench(self) -> GripSimulator:
+    def _bench(self) -> GripSimulation:
         """Where the body is grasped as in the worlds."""
-        return GripSimulator({BODY: self._body}, self._recipe)
+        return engine().grips({BODY: self._body}, self._recipe)
 
     def _look(self, grasp: Grasp) -> GraspVerdict:
         things = self._things
-        things.robot.put(*self._tool(grasp))  # type: ignore[attr-defined]
-        points = things.client.getClosestPoints(things.robot.id, things.bodies[BODY], 0.0)
-        return GraspVerdict(max((-float(p[DISTANCE]) for p in points), default=0.0), cover(things)[BODY])
+        things.hand.put(*self._tool(grasp))
+        return GraspVerdict(things.hand_depth(BODY), things.cover()[BODY])
 
     def _lift(self, grasp: Grasp) -> bool:
         lies = ((self._body, _frame(self._there)),)

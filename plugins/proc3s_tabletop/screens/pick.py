@@ -3,10 +3,9 @@
 import numpy as np
 
 from proc3s import FloatArray
-from proc3s_tabletop.bullet.rays import INSIDE
 from proc3s_tabletop.constraints import COLLISIONS, PAD_WIDTH, UNMEASURED, collision, grasp
 from proc3s_tabletop.robot.hand_profile import GAPS, columns
-from proc3s_tabletop.robot.settings import ReferenceSettings
+from proc3s_tabletop.robot.settings import INSIDE, ReferenceSettings
 from proc3s_tabletop.robot.widths import TOO_WIDE
 from proc3s_tabletop.screens.batch import BAND, BatchScreening
 from proc3s_tabletop.screens.layout import Bools, Layout, Rows

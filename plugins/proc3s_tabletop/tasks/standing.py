@@ -1,15 +1,14 @@
 """A judge that lets time pass: what rests on what, and whether it stays."""
 
-import itertools
 from collections.abc import Mapping
 from typing import Any
 
 from proc3s import Plan, Score
-from proc3s_tabletop.bullet.grip_cache import ALOFT
-from proc3s_tabletop.bullet.hand import FloatingHand
-from proc3s_tabletop.bullet.simulation import Things
 from proc3s_tabletop.catalogue.body_specs import bodies_of
 from proc3s_tabletop.constraints import called
+from proc3s_tabletop.engine.choice import engine
+from proc3s_tabletop.engine.protocol import HandSimulation
+from proc3s_tabletop.engine.values import ALOFT
 from proc3s_tabletop.objects.extents import extent
 from proc3s_tabletop.robot import frames as poses
 from proc3s_tabletop.robot.frames import Frame
@@ -43,9 +42,8 @@ def on_another(
     high = [name for name in upper if spaces[name].bottom > LOW]
     if not high:
         return Score(False, "everything lies on the table")
-    things = Things(
-        {name: known[o.category] for name, o in objects.items()}, ReferenceSettings(), FloatingHand
-    )
+    named = {name: known[o.category] for name, o in objects.items()}
+    things = engine().hand_scene(named, ReferenceSettings())
     try:
         before = {name: poses.frame(o.pose) for name, o in objects.items()}
         _let_go(things, before, seconds)
@@ -54,8 +52,8 @@ def on_another(
         things.close()
 
 
-def _let_go(things: Things, frames: Mapping[str, Frame], seconds: float) -> None:
-    things.robot.put(*ALOFT)  # type: ignore[attr-defined]
+def _let_go(things: HandSimulation, frames: Mapping[str, Frame], seconds: float) -> None:
+    things.hand.put(*ALOFT)
     things.clear()
     things.bring_back(frames)
     things.set_iterations(things.recipe.iterations)
@@ -63,7 +61,7 @@ def _let_go(things: Things, frames: Mapping[str, Frame], seconds: float) -> None
 
 
 def _first(
-    things: Things,
+    things: HandSimulation,
     before: Mapping[str, Frame],
     high: list[str],
     lower: list[str],
@@ -75,7 +73,7 @@ def _first(
     for name in high:
         moved = displacement(name, before[name], things.frame(name))
         way = moved.shift + LEVER * moved.turned
-        touched = _touched(things, name)
+        touched = things.touched(name)
         on = [other for other in lower if other in touched]
         if way > most:
             reasons.append(f"{called(objects, name)} moves by {1000 * way:.0f} mm when it is let go")
@@ -86,10 +84,3 @@ def _first(
         else:
             return Score(True, f"{called(objects, name)} rests on {called(objects, on[0])}")
     return Score(False, "; ".join(reasons))
-
-
-def _touched(things: Things, name: str) -> set[str]:
-    """What an object touches, by name."""
-    client, body = things.client, things.bodies[name]
-    others = itertools.chain([things.table], things.bodies.values())
-    return {things.names[other] for other in others if other != body and client.getContactPoints(body, other)}

@@ -81,7 +81,7 @@ def prompts(subject: Subject) -> Iterator[Fault]:
     for name in subject.spec.tasks:
         for method in {method.template: method for method in reversed(subject.methods)}.values():
             problem = subject.problem(name, method=method.name)
-            options = RunOptions(**{"task": f"{subject.spec.name}/{name}", "method": method.name})  # type: ignore[arg-type]
+            options = RunOptions(**{"task": f"{subject.spec.name}/{name}", "method": method.name})
             try:
                 messages = conversation(make_prompter(subject.registry, options, problem), problem, [])
             except Proc3sError as error:

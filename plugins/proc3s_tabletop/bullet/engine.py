@@ -1,0 +1,41 @@
+"""PyBullet as an engine of table-tops."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from proc3s import FloatArray
+from proc3s_tabletop.bullet import landing
+from proc3s_tabletop.bullet.grip_cache import GripSimulator
+from proc3s_tabletop.bullet.hand_scene import HandScene
+from proc3s_tabletop.bullet.scene import Scene
+from proc3s_tabletop.engine.snapshot import Snapshot
+from proc3s_tabletop.objects.body import Body
+from proc3s_tabletop.robot.settings import ReferenceSettings
+
+
+class BulletEngine:
+    """Makes simulations in PyBullet, each with a client of its own."""
+
+    def scene(self, bodies: Mapping[str, Body], settings: ReferenceSettings) -> Scene:
+        """A table with the robot and these bodies."""
+        return Scene(bodies, settings)
+
+    def hand_scene(self, bodies: Mapping[str, Body], settings: ReferenceSettings) -> HandScene:
+        """A table with a floating hand and these bodies."""
+        return HandScene(bodies, settings)
+
+    def grips(self, bodies: Mapping[str, Body], settings: ReferenceSettings) -> GripSimulator:
+        """Grips and falls among these bodies."""
+        return GripSimulator(bodies, settings)
+
+    def landed(self, pieces: Sequence[FloatArray], turn: FloatArray) -> FloatArray:
+        """Which direction (3,) of a body is down when it has come to rest that was let go with a turn."""
+        return landing.landed(pieces, turn)
+
+    def draw(
+        self, bodies: Mapping[str, Body], colors: Mapping[str, str], film: Sequence[Snapshot], path: Path
+    ) -> None:
+        """Write the last snapshot to `path`, and every one beside it with `-step0`, `-step1`, ... ."""
+        from proc3s_tabletop.bullet.pictures import draw
+
+        draw(bodies, colors, film, path)
