@@ -1,0 +1,51 @@
+"""Old addresses of modules, so that specs and plugins that were written for an earlier layout go on loading."""
+
+import importlib
+import sys
+from collections.abc import Mapping, Sequence
+from importlib.abc import Loader, MetaPathFinder
+from importlib.machinery import ModuleSpec
+from types import ModuleType
+from typing import Any
+
+
+class MovedModules(MetaPathFinder, Loader):
+    """Finds modules that are nowhere else under the names that they used to have.
+
+    `moved` maps an old name in a package to the modules, in the same package, that have its contents now.
+    """
+
+    def __init__(self, package: str, moved: Mapping[str, Sequence[str]]) -> None:
+        self._moved = {
+            f"{package}.{old}": [f"{package}.{module}" for module in new] for old, new in moved.items()
+        }
+
+    def install(self) -> None:
+        """Ask here last, after every other finder, and once."""
+        if self not in sys.meta_path:
+            sys.meta_path.append(self)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, MovedModules) and other._moved == self._moved
+
+    def __hash__(self) -> int:
+        return hash(tuple(self._moved))
+
+    def find_spec(
+        self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
+    ) -> ModuleSpec | None:
+        """A spec for a name that moved; None for any other."""
+        return ModuleSpec(fullname, self) if fullname in self._moved else None
+
+    def exec_module(self, module: ModuleType) -> None:
+        """Let every attribute be looked up where it is now."""
+        homes = self._moved[module.__name__]
+
+        def look_up(name: str) -> Any:
+            for home in homes:
+                found = vars(importlib.import_module(home))
+                if name in found:
+                    return found[name]
+            raise AttributeError(f"{module.__name__} has moved to {', '.join(homes)}, and has no {name!r} there")
+
+        module.__dict__["__getattr__"] = look_up
