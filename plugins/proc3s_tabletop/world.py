@@ -1,4 +1,4 @@
-"""Table-tops as proc3s knows worlds, and their two skills."""
+"""Table-tops as proc3s knows worlds; their skills are importable from here, too."""
 
 import dataclasses
 from abc import abstractmethod
@@ -21,6 +21,10 @@ from proc3s_tabletop.objects.shapes import Mesh
 from proc3s_tabletop.robot import frames as poses
 from proc3s_tabletop.robot.frames import Frame
 from proc3s_tabletop.screens.registered import SCREENS
+from proc3s_tabletop.skills import pick as pick
+from proc3s_tabletop.skills import pick_object as pick_object
+from proc3s_tabletop.skills import place as place
+from proc3s_tabletop.skills import place_object as place_object
 from proc3s_tabletop.telemetry import Telemetry
 
 if TYPE_CHECKING:

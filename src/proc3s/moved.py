@@ -1,4 +1,4 @@
-"""Old addresses of modules, so that specs and plugins that were written for an earlier layout go on loading."""
+"""Old addresses of modules: what was written for an earlier layout goes on loading."""
 
 import importlib
 import sys
@@ -46,6 +46,8 @@ class MovedModules(MetaPathFinder, Loader):
                 found = vars(importlib.import_module(home))
                 if name in found:
                     return found[name]
-            raise AttributeError(f"{module.__name__} has moved to {', '.join(homes)}, and has no {name!r} there")
+            raise AttributeError(
+                f"{module.__name__} has moved to {', '.join(homes)}, and has no {name!r} there"
+            )
 
         module.__dict__["__getattr__"] = look_up

@@ -8,6 +8,8 @@ Count = Annotated[int, Field(ge=0)]
 
 
 class FrozenData(BaseModel):
+    """Plain data that is never changed, and has no field that is unknown."""
+
     model_config = ConfigDict(frozen=True, extra="forbid")
 
 
