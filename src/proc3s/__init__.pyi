@@ -1,3 +1,9 @@
+from .api import get_domain as get_domain
+from .api import load_run as load_run
+from .api import render_prompt as render_prompt
+from .api import run as run
+from .api import solve as solve
+from .api import tasks as tasks
 from .checks.finding import Finding as Finding
 from .domain.domain import Domain as Domain
 from .domain.margins import Margin as Margin
@@ -35,6 +41,8 @@ from .plugins.loose_files import loose_files as loose_files
 from .redaction import platform_name as platform_name
 from .redaction import redacted as redacted
 from .redaction import without_secrets as without_secrets
+from .result import Result as Result
+from .result import Trials as Trials
 from .search.executor import Executor as Executor
 from .search.problem import Problem as Problem
 from .search.rollout import rollout as rollout

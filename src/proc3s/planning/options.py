@@ -1,12 +1,15 @@
 """Options of a run as plain data."""
 
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 from pydantic import Field
 
 from proc3s import specs
 from proc3s.errors import UsageError
 from proc3s.llm.budget import Budget
+from proc3s.specs.yaml_files import validate
 
 DEFAULT_SOLVER = "rejection"
 
@@ -55,4 +58,34 @@ def key_values(pairs: list[str]) -> dict[str, str]:
     for name in values:
         if len({pair for pair in pairs if pair.split("=", 1)[0] == name}) > 1:
             raise UsageError(f"the option {name!r} is given several times, with different values")
+    return values
+
+
+_PAIRS = ("domain_options", "method_options", "solver_options", "llm_options", "limits")
+_BUDGET = ("max_cost", "max_tokens", "max_calls")
+_PATHS = ("template_dir", "record")
+
+
+def run_options(**given: Any) -> RunOptions:
+    """Options of a run from what was given; None leaves the default. Raises UsageError or SpecError."""
+    return validate(RunOptions, plain_options(given), "options")
+
+
+def plain_options(given: Mapping[str, Any]) -> dict[str, Any]:
+    """What was given as fields of RunOptions: pairs `key=value` as dictionaries, paths in full."""
+    values = {name: value for name, value in given.items() if value is not None}
+    for name in _PAIRS:
+        if isinstance(values.get(name), list):
+            values[name] = key_values(values[name])
+        elif name in values:
+            values[name] = {key: str(value) for key, value in values[name].items()}
+    if budget := {name: values.pop(name) for name in _BUDGET if name in values}:
+        values["budget"] = budget
+    if "plugins" in values:
+        values["plugins"] = [path.resolve() for path in values["plugins"]]
+    for name in _PATHS:
+        if name in values:
+            values[name] = Path(values[name]).resolve()
+    if values.get("jobs", 1) > 1:
+        values.setdefault("executor", "processes")
     return values

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, is_dataclass, replace
 from functools import partial
 from typing import Any
 
@@ -15,7 +15,15 @@ from proc3s.planning.attempts import Attempt, Round
 from proc3s.planning.grounding import Opened, ReproducibilityCheck, open_sketch
 from proc3s.planning.parts import Setup
 from proc3s.planning.proposals import Proposal
-from proc3s.runs.events import AttemptEnded, Audited, BatchEvaluated, Emit, ProgramExtracted, SketchLoaded
+from proc3s.runs.events import (
+    AttemptEnded,
+    Audited,
+    BatchEvaluated,
+    Emit,
+    ProgramExtracted,
+    SamplerCall,
+    SketchLoaded,
+)
 from proc3s.sandbox.box import prewarm
 from proc3s.sandbox.errors import SketchError
 from proc3s.search.clock import Deadline
@@ -91,8 +99,15 @@ def _loaded(proposal: Proposal, opened: Opened) -> SketchLoaded:
         candidate=proposal.candidate,
         parameters={name: source_text(sampler) for name, sampler in samplers.items()},
         dims={name: sampler.dim for name, sampler in samplers.items()},
+        samplers={name: _call(sampler) for name, sampler in samplers.items()},
         log=opened.log,
     )
+
+
+def _call(sampler: Any) -> SamplerCall:
+    known = fields(sampler) if is_dataclass(sampler) else ()
+    args = {field.name: getattr(sampler, field.name) for field in known}
+    return SamplerCall(sampler=type(sampler).__name__, args=args)
 
 
 def _search(setup: Setup, opened: Opened, proposal: Proposal, emit: Emit, deadline: Deadline) -> Entrant:

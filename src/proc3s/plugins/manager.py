@@ -34,7 +34,7 @@ class PluginManager:
     is raised. `proc3s_plugins.py` in the working directory is loaded too.
     """
 
-    def __init__(self, files: Sequence[Path] = ()) -> None:
+    def __init__(self, files: Sequence[Path] = (), given: Sequence[object] = ()) -> None:
         self._manager = pluggy.PluginManager(GROUP)
         self._manager.add_hookspecs(hookspecs)
         self._explicit = {str(path) for path in files}
@@ -52,6 +52,8 @@ class PluginManager:
                 DomainFile if path.suffix in (".yaml", ".yml") else import_loose_file
             )
             self._load(PluginStatus(name, str(path)), partial(load, path))
+        for number, plugin in enumerate(given):
+            self._load(PluginStatus(f"given {number}", "this process"), partial(_given, plugin))
 
     def _load(self, status: PluginStatus, load: Callable[[], Any]) -> None:
         if status.name in self.statuses:
@@ -183,6 +185,10 @@ def _order(entry_point: importlib.metadata.EntryPoint) -> tuple[bool, str]:
 
 def _add(found: list[tuple[str, Spec]], kind: str, spec: Spec) -> None:
     found.append((kind, _checked(spec, f"register_{kind}")))
+
+
+def _given(plugin: object) -> object:
+    return plugin
 
 
 def _checked(spec: Any, hook: str) -> Spec:

@@ -136,9 +136,9 @@ def _check_made(domain: DomainSpec, sampler: specs.SamplerSpec) -> None:
         raise SpecError([Issue(f"domain {domain.name}", "samplers", message)])
 
 
-def open_registry(files: Sequence[Path] = ()) -> Registry:
-    """The registry of all installed plugins and the given loose files."""
-    return Registry(PluginManager(files))
+def open_registry(files: Sequence[Path] = (), given: Sequence[object] = ()) -> Registry:
+    """The registry of all installed plugins, the given loose files, and plugins that are objects."""
+    return Registry(PluginManager(files, given))
 
 
 def _template_folders(registry: Registry, domain: Domain) -> list[Path]:

@@ -14,6 +14,7 @@ from proc3s.feedback.report import Diagnosis
 from proc3s.llm.types import Completion, Message
 from proc3s.reporting.changes import Change, line_changes, rebound, unified
 from proc3s.reporting.trials import Samples, StepReport, by_step
+from proc3s.runs.events import SamplerCall
 from proc3s.runs.reading import LOG, label, read_events
 
 Log: TypeAlias = Sequence[dict[str, Any]]
@@ -39,6 +40,8 @@ class ProgramRecord(BaseModel):
     """Open parameters and how each is sampled."""
     dims: dict[str, int] = {}
     """Columns of u that each takes; empty where that is not known."""
+    samplers: dict[str, SamplerCall] = {}
+    """The sampler of each, as far as the log says."""
     printed: str = ""
     samples: Samples = Samples()
     taken: int = 0
@@ -219,6 +222,7 @@ def _program(
         blocks=extracted.get("blocks", ""),
         parameters=loaded.get("parameters", {}),
         dims=loaded.get("dims", {}),
+        samplers=loaded.get("samplers", {}),
         printed=loaded.get("log", ""),
         samples=samples,
         taken=ended.get("samples", len(samples.u)),

@@ -120,6 +120,13 @@ class ProgramExtracted(OfProgram):
     """Which blocks of code it was taken from, where the answer holds others too."""
 
 
+class SamplerCall(BaseModel):
+    """A sampler by its name, and what it was made with."""
+
+    sampler: str
+    args: dict[str, Any]
+
+
 class SketchLoaded(OfProgram):
     """The program passed its contract check; these are its open parameters."""
 
@@ -128,6 +135,8 @@ class SketchLoaded(OfProgram):
     """How each open parameter is sampled, as a program writes it."""
     dims: dict[str, int] = {}
     """How many columns of `u` each of them takes, in the same order."""
+    samplers: dict[str, SamplerCall] = {}
+    """The sampler of each of them: its name and its arguments."""
     log: str = ""
     """What the program printed while it was loaded."""
 

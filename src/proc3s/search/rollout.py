@@ -1,6 +1,7 @@
 """Carries a plan out in a world: the pure function that gives a trial."""
 
 import dataclasses
+from collections.abc import Callable
 from typing import Any
 
 from proc3s.domain.margins import Violation, check
@@ -29,9 +30,17 @@ def rollout(world: World[Any], problem: Problem, plan: Plan, prefixes: Prefixes 
 
 
 def carry_out(
-    world: World[Any], problem: Problem, plan: Plan, stop: bool = True, prefixes: Prefixes | None = None
+    world: World[Any],
+    problem: Problem,
+    plan: Plan,
+    stop: bool = True,
+    prefixes: Prefixes | None = None,
+    visit: Callable[[State], None] = lambda state: None,
 ) -> tuple[Trial, State]:
-    """The trial of a plan, and the state in which it ended; without `stop` it goes on after violations."""
+    """The trial of a plan, and the state in which it ended; without `stop` it goes on after violations.
+
+    `visit` is told of the state after every step that is carried out.
+    """
     prefixes, within = prefixes or Prefixes(0), watch().within
     known = prefixes.longest(plan)
     if known is None:
@@ -49,6 +58,7 @@ def carry_out(
         with within(problem.step_limit, f"skill {plan[step].skill} (step {step})"):
             transition = world.step(plan[step])
         state = transition.after
+        visit(state)
         step_margins, found = check(problem.domain, transition, step)
         margins.append(step_margins)
         violations += found

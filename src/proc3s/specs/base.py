@@ -11,16 +11,20 @@ from typing import Annotated, Any, ClassVar
 from pydantic import (
     AfterValidator,
     BaseModel,
+    BeforeValidator,
     ConfigDict,
     Field,
 )
 
 from proc3s.errors import Issue, SpecError, blame, did_you_mean, worded
+from proc3s.specs.given import address
 
 Identifier = Annotated[str, Field(pattern=r"^[A-Za-z_][A-Za-z0-9_]*$", max_length=80)]
 
 
-ImportString = Annotated[str, Field(pattern=r"^[\w.]+:\w+$", examples=["my_package.world:MyWorld"])]
+ImportString = Annotated[
+    str, BeforeValidator(address), Field(pattern=r"^[\w.]+:\w+$", examples=["my_package.world:MyWorld"])
+]
 
 
 Count = Annotated[int, Field(ge=1)]
@@ -61,7 +65,7 @@ class Target(Spec):
     """A Python object to call: `target: "package.module:name"`, with keyword arguments."""
 
     target: ImportString
-    """`package.module:name` of a class or function; the spec says what it is called with."""
+    """`package.module:name` of a class or function, in Python also the object; the spec says what it gets."""
     args: dict[str, Any] = Field(default_factory=dict)
     """Further keyword arguments of the call. In a file, `./name` is a path beside the file."""
 

@@ -43,8 +43,9 @@ def run(
     json: a.Json = False,
 ) -> None:
     """Solve a task: ask the LLM for a program, search its numbers, execute the plan, judge the result."""
-    from proc3s.cli.handlers.run import resume_run, run_options, run_task, with_llm
+    from proc3s.cli.handlers.run import resume_run, run_task, with_llm
     from proc3s.errors import UsageError
+    from proc3s.planning.options import run_options
     from proc3s.planning.session import Job
 
     given = {
@@ -114,7 +115,8 @@ def solve(
     json: a.Json = False,
 ) -> None:
     """Second stage only: search the numbers of a program that is there already. Asks no LLM."""
-    from proc3s.cli.handlers.run import read_program, run_options, run_task
+    from proc3s.cli.handlers.run import read_program, run_task
+    from proc3s.planning.options import run_options
     from proc3s.planning.session import Given, Job
 
     def job() -> Job:

@@ -1,12 +1,10 @@
 """What a person sees of a run: progress on stderr while it samples, then a short result."""
 
 import sys
-from collections import Counter
 from types import TracebackType
 
 from rich.console import Console as RichConsole
 from rich.markup import escape
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
 from proc3s.feedback.report import Diagnosis, Failure
 from proc3s.feedback.shares import portion
@@ -14,10 +12,10 @@ from proc3s.llm.budget import Spent
 from proc3s.llm.types import Completion
 from proc3s.planning.options import RunOptions
 from proc3s.planning.summary import Summary
+from proc3s.reporting.progress import SearchProgress
 from proc3s.runs.events import (
     AnswerReceived,
     Audited,
-    BatchEvaluated,
     CallFailed,
     Event,
     ProgramExtracted,
@@ -53,35 +51,21 @@ class Console:
         self._samples = samples
         self._quiet = quiet
         self._err = RichConsole(stderr=True, quiet=quiet, highlight=False, soft_wrap=True)
-        self._progress = Progress(
-            TextColumn("  {task.description}"),
-            BarColumn(bar_width=24),
-            MofNCompleteColumn(),
-            TextColumn(
-                "samples  {task.fields[rate]}  furthest step {task.fields[reached]}  {task.fields[why]}"
-            ),
-            TimeElapsedColumn(),
-            console=self._err,
-            transient=True,
-            disable=quiet or not sys.stderr.isatty(),
-        )
-        self._task = self._progress.add_task(
-            "sampling", start=False, visible=False, rate="", reached=0, why=""
-        )
-        self._why: Counter[str] = Counter()
+        self._progress = SearchProgress(samples, self._err, shown=not quiet and sys.stderr.isatty())
         self._lost: set[str] = set()
 
     def __enter__(self) -> "Console":
-        self._progress.start()
+        self._progress.__enter__()
         return self
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        self._progress.stop()
+        self._progress.__exit__(kind, error, trace)
 
     def update(self, event: Event) -> None:
         """Show what an event says."""
+        self._progress.update(event)
         if isinstance(event, PromptRendered):
             size = sum(len(message.text) for message in event.messages)
             self.say(f"round {event.round}: asking {self._options.llm} ({size} characters)")
@@ -95,8 +79,6 @@ class Console:
             self.say(f"round {event.round}: the program is {event.blocks} in the answer")
         elif isinstance(event, SketchLoaded):
             self._loaded(event)
-        elif isinstance(event, BatchEvaluated):
-            self._sampled(event)
         elif isinstance(event, Audited):
             self.say(f"round {event.round}: audit: {len(event.wrong)} of {event.checked} rejects were wrong")
         elif isinstance(event, RoundEnded):
@@ -125,24 +107,8 @@ class Console:
             f"with {count(len(event.parameters), 'open parameter')}" if listed else "without open parameters"
         )
         self.say(f"round {event.round}: a program {number} {shown}".rstrip())
-        self._why.clear()
-        self._progress.reset(
-            self._task, total=self._samples, visible=True, rate="", reached=0, why="", start=True
-        )
-
-    def _sampled(self, event: BatchEvaluated) -> None:
-        self._why.update(name for name in event.violation if name)
-        task = self._progress.tasks[0]
-        self._progress.update(
-            self._task,
-            advance=len(event.accepted),
-            rate=f"{task.speed:,.0f}/s" if task.speed else "",
-            reached=max([task.fields["reached"], *event.reached]),
-            why="  ".join(f"{name} {count}" for name, count in self._why.most_common(3)),
-        )
 
     def _diagnosis(self, round_: int, diagnosis: Diagnosis) -> None:
-        self._progress.update(self._task, visible=False)
         self.say(f"round {round_}: no plan was accepted ({_samples(diagnosis.samples)})")
         if diagnosis.alike:
             self.say(f"  no more were drawn: all of the first {diagnosis.samples} raised the same exception")

@@ -7,8 +7,8 @@ from typing import Any
 import typer
 
 from proc3s.cli.handlers.render_prompt import render, unified_diff
-from proc3s.cli.handlers.run import run_options
 from proc3s.errors import UsageError
+from proc3s.planning.options import run_options
 from proc3s.plugins.registry import Registry
 from proc3s.runs.folder import markdown
 from proc3s.specs.domain import DomainSpec

@@ -8,12 +8,11 @@ from typing import Any
 
 import typer
 
-from proc3s.cli.handlers.run import run_options
 from proc3s.cli.streams import print_document
 from proc3s.errors import UsageError
 from proc3s.feedback.report import Diagnosis
 from proc3s.llm.types import Message, digest, estimate_tokens
-from proc3s.planning.options import RunOptions
+from proc3s.planning.options import RunOptions, run_options
 from proc3s.planning.proposals import proposals_of
 from proc3s.planning.resume import answers_of
 from proc3s.planning.setup import make_problem, make_prompter

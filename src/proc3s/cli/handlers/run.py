@@ -13,7 +13,7 @@ from proc3s.errors import Proc3sError, UsageError
 from proc3s.llm.config import choose_llm
 from proc3s.llm.types import Source
 from proc3s.planning.limits import box_limits
-from proc3s.planning.options import RunOptions, key_values
+from proc3s.planning.options import RunOptions, plain_options
 from proc3s.planning.resume import past_of
 from proc3s.planning.session import Ended, Given, Job, Session
 from proc3s.planning.summary import Summary
@@ -22,37 +22,8 @@ from proc3s.runs.reading import events_of, options_of
 from proc3s.specs.yaml_files import validate
 from proc3s.textfiles import read_text
 
-_OPTION_LISTS = ("domain_options", "method_options", "solver_options", "llm_options", "limits")
-
-
 _MAY_CHANGE = {"llm", "llm_options", "llm_jobs", "jobs", "executor", "record", "budget", "limits"}
 """What another process may do otherwise, and still go on with the same run."""
-
-
-_LIMITS = ("max_cost", "max_tokens", "max_calls")
-
-
-def run_options(**given: Any) -> RunOptions:
-    """Options of a run from the arguments of a command; None leaves the default."""
-    return validate(RunOptions, _plain(given), "options")
-
-
-def _plain(given: dict[str, Any]) -> dict[str, Any]:
-    """Arguments of a command as fields of RunOptions, those that were given alone."""
-    values = {name: value for name, value in given.items() if value is not None}
-    for name in _OPTION_LISTS:
-        if name in values:
-            values[name] = key_values(values[name])
-    if budget := {name: values.pop(name) for name in _LIMITS if name in values}:
-        values["budget"] = budget
-    if "plugins" in values:
-        values["plugins"] = [path.resolve() for path in values["plugins"]]
-    for name in ("template_dir", "record"):
-        if name in values:
-            values[name] = values[name].resolve()
-    if values.get("jobs", 1) > 1:
-        values.setdefault("executor", "processes")
-    return values
 
 
 def with_llm(options: RunOptions) -> RunOptions:
@@ -118,7 +89,7 @@ def replay_run(run: Path, changes: dict[str, Any], out: Path | None, as_json: bo
     """Search the last program of a run again, with the random draws of its round."""
 
     def job() -> Job:
-        options = {**options_of(run), **_plain(changes)}
+        options = {**options_of(run), **plain_options(changes)}
         if changes.get("executor") not in (None, options_of(run)["executor"]):
             options["jobs"] = 1  # those of the run were another executor's
         return Job(validate(RunOptions, options, str(run)), out, _program_of(run))
@@ -152,7 +123,7 @@ def resume_run(run: Path, task: str | None, given: dict[str, Any], as_json: bool
         past = past_of(run)
         if past.versions != versions():
             typer.echo("proc3s: other versions are installed than when the run began", err=True)
-        return Job(_resumed(logged, _plain(given)), run, past=past)
+        return Job(_resumed(logged, plain_options(given)), run, past=past)
 
     run_task(job, as_json)
 
