@@ -6,6 +6,7 @@ import multiprocessing
 import os
 import pickle
 import signal
+import sys
 import tempfile
 import threading
 import time
@@ -15,6 +16,7 @@ from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
 from pathlib import Path
+from types import ModuleType
 
 from proc3s import (
     OutOfTime,
@@ -174,13 +176,18 @@ class Processes:
 
 @contextlib.contextmanager
 def _for_children() -> Iterator[None]:
-    """While workers are started in here they get no key, and import nothing from the working directory."""
-    before = os.environ.get(_SAFE_PATH)
+    """While workers are started in here they get no key, and import nothing from the working directory.
+
+    Nor do they run the script that runs here, which may have no main guard: its module is not to be seen.
+    """
+    before, main = os.environ.get(_SAFE_PATH), sys.modules["__main__"]
     with without_secrets():
         os.environ[_SAFE_PATH] = "1"
+        sys.modules["__main__"] = ModuleType("__main__")
         try:
             yield
         finally:
+            sys.modules["__main__"] = main
             if before is None:
                 del os.environ[_SAFE_PATH]
             else:

@@ -60,7 +60,9 @@ def _says_something(found: Candidate) -> bool:
 def counted(body: str | None) -> Usage | None:
     """The tokens that an answer speaks of, whatever else is wrong with it; None if it speaks of none."""
     usage = _object(body).get("usage")
-    for prompt, completion in _TOKENS if isinstance(usage, Mapping) else ():
+    if not isinstance(usage, Mapping):
+        return None
+    for prompt, completion in _TOKENS:
         asked, answered = tokens(usage.get(prompt)), tokens(usage.get(completion))
         if asked and answered is not None:
             return Usage(prompt_tokens=asked, completion_tokens=answered)

@@ -13,6 +13,7 @@ from pydantic import TypeAdapter, ValidationError
 from proc3s.domain.plan_batch import Parameter, Signature
 from proc3s.domain.state import State, StateModel
 from proc3s.errors import Issue, SpecError, UsageError, blame, did_you_mean, not_wanted
+from proc3s.specs.base import Target
 from proc3s.specs.domain import DomainSpec, ParamSpec, SamplerSpec, ScreenSpec, TaskSpec
 from proc3s.specs.fitting import misfits, unfit_constraint
 from proc3s.specs.yaml_reader import Document
@@ -53,6 +54,17 @@ class Domain:
     def screens(self) -> tuple[ScreenSpec, ...]:
         """The domain's own screens, then those that come with its world."""
         return (*self.spec.screens, *getattr(self.spec.world.load(), "screens", ()))
+
+    def targets(self, task: TaskSpec) -> Iterator[tuple[str, Target]]:
+        """Every target that a run of a task needs, and the field that names it."""
+        spec = self.spec
+        yield "world", spec.world
+        if spec.execution:
+            yield "execution", spec.execution
+        for kind, parts in (("skills", spec.skills), ("constraints", spec.constraints)):
+            yield from ((f"{kind}.{name}", part) for name, part in parts.items())
+        yield from ((f"samplers.{sampler.name}", sampler) for sampler in self.samplers)
+        yield from ((f"tasks.{task.name}.judge.{i}", judge) for i, judge in enumerate(task.judge))
 
     def require(self, task: TaskSpec) -> None:
         """Import all that a run of a task needs. Raises SpecError with all that is missing or unfit."""

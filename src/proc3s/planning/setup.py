@@ -20,6 +20,7 @@ from proc3s.sandbox.errors import SketchError
 from proc3s.search.executor import Executor
 from proc3s.search.problem import Problem
 from proc3s.search.solver import Solver
+from proc3s.specs.given import importable
 from proc3s.specs.yaml_files import validate
 from proc3s.specs.yaml_reader import scalar
 
@@ -101,6 +102,8 @@ def make_setup(registry: Registry, options: RunOptions, problem: Problem) -> Set
     make = solver.load()
     executor = make_executor(registry, options.executor, options.jobs)
     problem.domain.require(problem.task)
+    if options.jobs > 1:
+        _refuse_unimportable(problem)
     limits, clock_limits = make_limits(options.limits)
     if problem.robust and problem.domain.spec.world.load().disturb is World.disturb:
         raise UsageError(f"--robust: nothing disturbs the world of {problem.domain.spec.name}")
@@ -122,3 +125,13 @@ def make_setup(registry: Registry, options: RunOptions, problem: Problem) -> Set
         locked=not options.unsafe_exec,
         audit=options.audit,
     )
+
+
+def _refuse_unimportable(problem: Problem) -> None:
+    """Raises UsageError for a skill, constraint or judge that worker processes could not import."""
+    for field, target in problem.domain.targets(problem.task):
+        if not importable(target.target):
+            raise UsageError(
+                f"{field}: a function of a script or notebook cannot be imported by worker processes; put it "
+                "into a module, or use jobs=1"
+            )
