@@ -5,9 +5,9 @@ import os
 import time
 
 import pytest
-from provider import DRIPS, HANGS, MODEL, sends
 
 from proc3s_litellm.addresses import corrected
+from provider import DRIPS, HANGS, MODEL, sends
 
 
 @pytest.fixture(autouse=True)

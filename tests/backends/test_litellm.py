@@ -13,7 +13,6 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
-from provider import CLOSES, CUTS, HANGS, MODEL, USAGE, refuses, running, says, sends
 
 from proc3s import LLMError, Message, Request
 from proc3s.llm.errors import TRANSIENT
@@ -24,6 +23,7 @@ from proc3s_litellm.backend import LiteLLM, Options
 from proc3s_litellm.loading import load_litellm
 from proc3s_litellm.parameters import split
 from proc3s_litellm.wire import takes_marks
+from provider import CLOSES, CUTS, HANGS, MODEL, USAGE, refuses, running, says, sends
 
 pytestmark = pytest.mark.xdist_group("litellm")
 

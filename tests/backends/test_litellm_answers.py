@@ -7,13 +7,13 @@ import threading
 import time
 
 import pytest
-from provider import DRIPS, MODEL, USAGE, Reply, refuses, running, says, sends
 
 from proc3s import LLMError, Message, Request
 from proc3s.llm.types import Sampling
 from proc3s.llm.usage import Usage
 from proc3s_litellm.backend import LiteLLM, Options
 from proc3s_litellm.loading import load_litellm
+from provider import DRIPS, MODEL, USAGE, Reply, refuses, running, says, sends
 
 pytestmark = pytest.mark.xdist_group("litellm")
 

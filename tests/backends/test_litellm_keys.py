@@ -6,7 +6,6 @@ import sys
 from importlib import metadata
 
 import pytest
-from provider import sends
 
 from proc3s import LLMError
 from proc3s.errors import SpecError
@@ -15,6 +14,7 @@ from proc3s_litellm.backend import LiteLLM, Options
 from proc3s_litellm.checks import check
 from proc3s_litellm.keys import find_key, hide_secrets
 from proc3s_litellm.providers import PROVIDERS, server_of
+from provider import sends
 
 KEY = "sk-planted-0123456789"
 

@@ -6,6 +6,7 @@ import time
 from pathlib import Path
 
 import pytest
+
 from provider import CLOSES, CUTS, DRIPS, HANGS, refuses, says, sends
 
 # The import of litellm takes seconds, in every process anew.

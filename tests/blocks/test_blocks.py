@@ -7,8 +7,8 @@ import re
 
 import numpy as np
 import pytest
-from boxing import box, reaches_goal, trials
 
+from boxing import box, reaches_goal, trials
 from proc3s.planning.options import RunOptions
 from proc3s.planning.setup import make_problem
 from proc3s.plugins.registry import open_registry

@@ -4,12 +4,12 @@ import json
 import shutil
 
 import pytest
-from sample_answers import STAR
 
 from proc3s import answer, load_domain
 from proc3s.prompts.extract import extract_program
 from proc3s.suites.results import read_figures
 from proc3s.textfiles import read_text
+from sample_answers import STAR
 
 MARK = "\ufeff"
 PROGRAM = extract_program(STAR)

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
-import toy_world
 
+import toy_world
 from proc3s import Action, Margin, SpecError, Violation
 from proc3s.domain.margins import sentence
 from proc3s.domain.world import make_world

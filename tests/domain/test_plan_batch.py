@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from toy_world import columns
 
 from proc3s import Pose
 from proc3s.domain.plan_batch import Parameter, Signature
+from toy_world import columns
 
 SIGNATURES = (
     Signature("wait", ()),

@@ -2,10 +2,10 @@ import math
 
 import numpy as np
 import pytest
-import toy_world
 from hypothesis import example, given
 from hypothesis import strategies as st
 
+import toy_world
 from proc3s import Action, Space
 from proc3s.domain.plan_batch import Parameter, Signature
 from proc3s.domain.samplers import ContinuousSampler, DiscreteSampler

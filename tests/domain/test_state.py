@@ -5,11 +5,11 @@ import pickle
 
 import numpy as np
 import pytest
-import toy_world
 from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
+import toy_world
 from proc3s import Action, Pose
 from proc3s.domain.plan_batch import Parameter, Signature
 from proc3s.domain.source_text import source_text

@@ -4,8 +4,8 @@ import dataclasses
 
 import numpy as np
 import pytest
-import toy_world
 
+import toy_world
 from proc3s import SpecError
 from proc3s.domain.prelude import setup_code
 from proc3s.planning.grounding import open_sketch

@@ -4,8 +4,8 @@ import dataclasses
 
 import numpy as np
 import pytest
-import toy_world
 
+import toy_world
 from proc3s import Action, PlanBatch, Rollouts, SpecError
 from proc3s.domain.world import make_world
 from proc3s.plugins.registry import open_registry

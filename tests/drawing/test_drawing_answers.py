@@ -4,8 +4,8 @@ import re
 
 import numpy as np
 import pytest
-from boxing import box
 
+from boxing import box
 from proc3s import MethodSpec, PresetSpec
 from proc3s.domain.world import make_world
 from proc3s.planning.options import RunOptions

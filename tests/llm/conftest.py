@@ -5,6 +5,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
+
 from sample_answers import OUTSIDE, STAR
 
 LOOSE = Path(__file__).with_name("talker.py")

@@ -1,8 +1,8 @@
 import textwrap
 
 import pytest
-import toy_world
 
+import toy_world
 from proc3s import DomainSpec, MethodSpec, SamplerSpec, SkillSpec, SolverSpec, SpecError, UsageError
 from proc3s.plugins.registry import open_registry
 

@@ -1,9 +1,9 @@
 from pathlib import Path
 
 import pytest
-import toy_world
 
 import proc3s_templates
+import toy_world
 from proc3s import MethodSpec, PresetSpec, SpecError, UsageError
 from proc3s.feedback.report import Diagnosis, Failure
 from proc3s.prompts.conversation import Exchange, conversation

@@ -4,8 +4,8 @@ import re
 from html.parser import HTMLParser
 
 import pytest
-from browser import needs_chromium, visiting
 
+from browser import needs_chromium, visiting
 from proc3s.plugins.registry import folders_of, open_registry
 from proc3s.reporting.history import read_story
 from proc3s.reporting.page import page

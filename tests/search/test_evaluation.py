@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
-import toy_world
 
+import toy_world
 from proc3s import Action, Space, rollout
 from proc3s.domain.samplers import ContinuousSampler
 from proc3s.domain.world import make_world

@@ -1,6 +1,6 @@
 import pytest
-import toy_world
 
+import toy_world
 from proc3s import DomainSpec, SpecError, load_domain
 from proc3s.specs.yaml_reader import scalar
 

@@ -1,7 +1,7 @@
 import pytest
-import toy_world
 from pydantic import ValidationError
 
+import toy_world
 from proc3s import MethodSpec, SpecError, load_domain
 from proc3s.specs.base import Target
 from proc3s.specs.domain import FieldSpec, ParamSpec, TypeSpec

@@ -6,8 +6,8 @@ import json
 import sqlite3
 
 import pytest
-from browser import needs_chromium, visiting
 
+from browser import needs_chromium, visiting
 from proc3s import UsageError
 from proc3s.plugins.registry import folders_of, open_registry
 from proc3s.specs.suite import Cell, SuiteSpec
