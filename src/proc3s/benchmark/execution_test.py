@@ -20,10 +20,9 @@ from proc3s.planning.parts import Setup
 from proc3s.planning.setup import make_problem, make_setup
 from proc3s.plugins.registry import Registry
 from proc3s.search.evaluator import Evaluator
-from proc3s.search.influence import influence
 from proc3s.search.problem import Problem
 from proc3s.search.rollout import carry_out, judge
-from proc3s.search.search import Search
+from proc3s.search.start import start_search
 from proc3s.search.trial import Trial
 
 SEED = 2**30
@@ -97,9 +96,7 @@ def _search(setup: Setup) -> tuple[Evaluator, Trial | None]:
     problem = setup.problem
     with open_sketch(setup) as opened:
         evaluator = Evaluator(problem, opened.sketch, setup.executor)
-        space = dataclasses.replace(opened.sketch.space, probe=lambda: influence(opened.sketch))
-        rng = np.random.default_rng(np.random.SeedSequence(problem.seed, spawn_key=(0,)))
-        search = Search(space, setup.make_solver(space, problem.samples, rng), evaluator)
+        search = start_search(evaluator, setup.make_solver, problem.samples)
         search.advance(problem.samples)
         if search.broken_off is not None:
             raise search.broken_off

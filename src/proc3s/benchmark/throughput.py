@@ -12,7 +12,6 @@ import numpy as np
 
 from proc3s.benchmark.cases import Case
 from proc3s.benchmark.measurement import PLAIN, SCREENED, Measurement, Meter, SearchVariant
-from proc3s.domain.samplers import Space
 from proc3s.planning.grounding import open_sketch
 from proc3s.planning.options import RunOptions
 from proc3s.planning.parts import Setup
@@ -20,10 +19,9 @@ from proc3s.planning.setup import make_executor, make_problem, make_setup
 from proc3s.plugins.registry import Registry
 from proc3s.search.evaluator import Evaluator
 from proc3s.search.executor import Executor
-from proc3s.search.influence import influence
 from proc3s.search.screen_audit import Audit
-from proc3s.search.search import Search
 from proc3s.search.sketch import Sketch
+from proc3s.search.start import space_of, start_search
 from proc3s.search.trial import Trial
 
 _BATCHES = (64, 192, 768, 1024)
@@ -113,24 +111,18 @@ class Bench:
 def _warm_up(setup: Setup, sketch: Sketch) -> None:
     """Import what solver, world and workers need: a few plans, and a solver whose samples all fail."""
     u = np.random.default_rng(0).random((_WARMING, sketch.space.dim))
-    list(Evaluator(setup.problem, sketch, setup.executor).stream(u))
-    solver = setup.make_solver(_space(sketch), setup.problem.samples, np.random.default_rng(0))
+    evaluator = Evaluator(setup.problem, sketch, setup.executor)
+    list(evaluator.stream(u))
+    solver = setup.make_solver(space_of(evaluator), setup.problem.samples, np.random.default_rng(0))
     for _ in range(8):
         asked = solver.ask(setup.problem.samples)
         solver.tell([Trial(u=tuple(row)) for row in asked.tolist()])
 
 
-def _space(sketch: Sketch) -> Space:
-    return dataclasses.replace(sketch.space, probe=lambda: influence(sketch))
-
-
 def _search(case: Case, way: SearchVariant, setup: Setup, sketch: Sketch) -> Measurement:
     problem = setup.problem
     meter = Meter(problem, setup.executor, sketch)
-    space = _space(sketch)
-    rng = np.random.default_rng(np.random.SeedSequence(problem.seed, spawn_key=(0,)))
-    solver = setup.make_solver(space, problem.samples, rng)
-    found = Search(space, solver, meter.evaluator)
+    found = start_search(meter.evaluator, setup.make_solver, problem.samples)
     found.advance(problem.samples)
     if found.broken_off is not None:
         raise found.broken_off

@@ -1,21 +1,14 @@
 """The parts that a run is made of."""
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TypeAlias
 
-import numpy as np
-
-from proc3s.domain.samplers import Space
 from proc3s.planning.limits import ClockLimits
 from proc3s.sandbox.box import Limits
 from proc3s.search.executor import Executor
 from proc3s.search.problem import Problem
-from proc3s.search.solver import Solver
+from proc3s.search.start import MakeSolver
 from proc3s.specs.parts import MethodSpec, PresetSpec
-
-MakeSolver: TypeAlias = Callable[[Space, int, np.random.Generator], Solver]
 
 
 @dataclass(frozen=True)

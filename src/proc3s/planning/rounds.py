@@ -28,10 +28,10 @@ from proc3s.sandbox.box import prewarm
 from proc3s.sandbox.errors import SketchError
 from proc3s.search.clock import Deadline
 from proc3s.search.evaluator import Evaluator
-from proc3s.search.influence import influence
 from proc3s.search.race import race
 from proc3s.search.screen_audit import Audit
 from proc3s.search.search import Search
+from proc3s.search.start import start_search
 from proc3s.search.trial import Trial
 
 
@@ -116,13 +116,16 @@ def _search(setup: Setup, opened: Opened, proposal: Proposal, emit: Emit, deadli
     evaluator = Evaluator(
         setup.problem, opened.sketch, setup.executor, ReproducibilityCheck(setup), audit, review
     )
-    # A key of its own for every program, so that no search draws the numbers that made the scene.
     key = (proposal.round, proposal.candidate) if proposal.candidate else (proposal.round,)
-    rng = np.random.default_rng(np.random.SeedSequence(setup.problem.seed, spawn_key=key))
-    space = replace(opened.sketch.space, probe=lambda: influence(opened.sketch))
-    solver = setup.make_solver(space, _budget(setup), rng)
-    report = partial(BatchEvaluated.from_trials, proposal.round, proposal.candidate)
-    search = Search(space, solver, evaluator, lambda trials: emit(report(trials)), deadline.check)
+    columns = partial(BatchEvaluated.from_trials, proposal.round, proposal.candidate)
+    search = start_search(
+        evaluator,
+        setup.make_solver,
+        _budget(setup),
+        key,
+        lambda trials: emit(columns(trials)),
+        deadline.check,
+    )
     return Entrant(setup, opened, evaluator, search, audit, review)
 
 

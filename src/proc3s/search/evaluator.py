@@ -54,7 +54,7 @@ class Evaluator:
         review: Audit | None = None,
     ) -> None:
         self.problem = problem
-        self._sketch = sketch
+        self.sketch = sketch
         self._executor = executor
         self._confirm = confirm
         self._audit, self._review = audit, review
@@ -99,7 +99,7 @@ class Evaluator:
         """The plans that the program finished, and what stopped it if something did."""
         with self.clock("program"):
             try:
-                return self._sketch.plans(u, self.samples), None
+                return self.sketch.plans(u, self.samples), None
             except SketchError as error:
                 if error.done is None:
                     raise
