@@ -47,8 +47,8 @@ def test_strokes_are_ten_lines_with_parameters_of_their_own():
     from proc3s.search.influence import influence
 
     with Bench(REGISTRY, []) as bench:
-        setup = bench._setup(case("drawing/free.strokes"), 0, PLAIN)
-        with open_sketch(setup) as opened:
+        strokes = case("drawing/free.strokes")
+        with open_sketch(bench._setup(strokes, 0, PLAIN), strokes.program) as opened:
             assert opened.sketch.space.dim == 40
             assert sorted(influence(opened.sketch).values()) == sorted(list(range(10)) * 4)
 

@@ -59,12 +59,11 @@ def test_the_prompt_shows_them_as_they_are(tmp_path):
 
 
 def test_programs_call_them(tmp_path):
-    problem = dataclasses.replace(with_methods(tmp_path), program=PROGRAM)
     options = RunOptions(task="toy/shift")
     setup = dataclasses.replace(
-        make_setup(open_registry([]), options, toy_world.problem(tmp_path)), problem=problem
+        make_setup(open_registry([]), options, toy_world.problem(tmp_path)), problem=with_methods(tmp_path)
     )
-    with open_sketch(setup) as opened:
+    with open_sketch(setup, PROGRAM) as opened:
         batch = opened.sketch.plans(np.array([[0.5]]), 0)
     assert batch.plan(0)[0].args == ("object_0", 3.0)
 

@@ -3,8 +3,8 @@
 import time
 
 import pytest
-import toy_world
 
+import toy_world
 from proc3s import ConstraintSpec, SpecError, load_domain
 from proc3s.specs.domain import ParamSpec
 

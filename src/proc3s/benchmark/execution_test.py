@@ -4,7 +4,6 @@ Fixed programs are searched as by preset `best`, with and without rehearsals; ev
 in the execution world under disturbances of its own, and the judge looks at the outcome. No LLM.
 """
 
-import dataclasses
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -69,7 +68,7 @@ def field_tests(
     for rehearsals in robust:
         setup = _setup(registry, case, seed, rehearsals, samples)
         try:
-            evaluator, solution = _search(setup)
+            evaluator, solution = _search(setup, case.program)
         finally:
             setup.executor.close()
         plan = solution.plan if solution else None
@@ -89,12 +88,12 @@ def _setup(registry: Registry, case: Case, seed: int, robust: int, samples: int 
     given = {"task": case.task, "seed": seed, "robust": robust, "samples": samples}
     options = RunOptions.model_validate({**given, "domain_options": case.scene})
     problem = make_problem(registry, options, goal_needed=False)
-    return make_setup(registry, options, dataclasses.replace(problem, program=case.program))
+    return make_setup(registry, options, problem)
 
 
-def _search(setup: Setup) -> tuple[Evaluator, Trial | None]:
+def _search(setup: Setup, program: str) -> tuple[Evaluator, Trial | None]:
     problem = setup.problem
-    with open_sketch(setup) as opened:
+    with open_sketch(setup, program) as opened:
         evaluator = Evaluator(problem, opened.sketch, setup.executor)
         search = start_search(evaluator, setup.make_solver, problem.samples)
         search.advance(problem.samples)

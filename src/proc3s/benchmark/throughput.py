@@ -65,7 +65,7 @@ class Bench:
 
     def search(self, case: Case, seed: int) -> Iterator[Measurement]:
         """Every way on one scene, the plain one first."""
-        with open_sketch(self._setup(case, seed, PLAIN)) as opened:
+        with open_sketch(self._setup(case, seed, PLAIN), case.program) as opened:
             for way in self._ways:
                 setup = self._setup(case, seed, way)
                 if way.name not in self._warm:
@@ -83,7 +83,7 @@ class Bench:
 
     def stream(self, case: Case, seed: int, way: SearchVariant, samples: int) -> Measurement:
         """The same in one of these ways; `audited` and `wrong` tell how the screens did."""
-        with open_sketch(self._setup(case, seed, PLAIN)) as opened:
+        with open_sketch(self._setup(case, seed, PLAIN), case.program) as opened:
             return _stream(case, way, self._setup(case, seed, way), opened.sketch, samples)
 
     def _setup(self, case: Case, seed: int, way: SearchVariant) -> Setup:
@@ -100,7 +100,6 @@ class Bench:
         )
         problem = dataclasses.replace(
             make_problem(self._registry, options, goal_needed=False),
-            program=case.program,
             screens="all" if way.saving else "none",
             prefixes=way.saving,
         )

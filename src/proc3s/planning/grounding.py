@@ -29,13 +29,14 @@ class Opened:
 
 
 @contextmanager
-def open_sketch(setup: Setup, probe: bool = True) -> Iterator[Opened]:
-    """Load the program of the problem in a box of its own, and draw some plans to check unless it was done
-    before. Raises SketchError.
+def open_sketch(setup: Setup, source: str, probe: bool = True) -> Iterator[Opened]:
+    """Load a program in a box of its own, and draw some plans to check unless it was done before.
+
+    Raises SketchError.
     """
     problem, method = setup.problem, setup.method
     program = Program(
-        source=problem.program,
+        source=source,
         answer=method.answer,
         prelude=setup_code(problem.domain),
         initial=source_text(problem.initial),
@@ -60,8 +61,8 @@ class ReproducibilityCheck:
     A program that keeps state between calls, or tampered with its worker, gives another plan there.
     """
 
-    def __init__(self, setup: Setup) -> None:
-        self._setup = setup
+    def __init__(self, setup: Setup, source: str) -> None:
+        self._setup, self._source = setup, source
         self._refused = 0
 
     def __call__(self, trial: Trial) -> SketchError | None:
@@ -75,7 +76,7 @@ class ReproducibilityCheck:
 
     def _difference(self, trial: Trial) -> SketchError | None:
         try:
-            with open_sketch(self._setup, probe=False) as again:
+            with open_sketch(self._setup, self._source, probe=False) as again:
                 batch = again.sketch.plans(np.array([trial.u]), trial.index)
         except SketchError as error:
             return error

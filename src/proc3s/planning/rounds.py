@@ -83,11 +83,10 @@ def _enter(
         found = proposal.program()
         source = found.program
         emit(ProgramExtracted(round=round_, candidate=candidate, source=source, blocks=found.blocks))
-        setup = replace(setup, problem=replace(setup.problem, program=source))
-        opened = boxes.enter_context(open_sketch(setup))
+        opened = boxes.enter_context(open_sketch(setup, source))
         prewarm(setup.limits, setup.locked)  # confirms the winner, or serves the next program
         emit(_loaded(proposal, opened))
-        return _search(setup, opened, proposal, emit, deadline)
+        return _search(setup, source, opened, proposal, emit, deadline)
     except SketchError as error:
         return error
 
@@ -110,11 +109,13 @@ def _call(sampler: Any) -> SamplerCall:
     return SamplerCall(sampler=type(sampler).__name__, args=args)
 
 
-def _search(setup: Setup, opened: Opened, proposal: Proposal, emit: Emit, deadline: Deadline) -> Entrant:
+def _search(
+    setup: Setup, source: str, opened: Opened, proposal: Proposal, emit: Emit, deadline: Deadline
+) -> Entrant:
     audit = Audit(setup.audit, setup.problem.seed) if setup.audit else None
     review = Audit(REVIEWED, setup.problem.seed)
     evaluator = Evaluator(
-        setup.problem, opened.sketch, setup.executor, ReproducibilityCheck(setup), audit, review
+        setup.problem, opened.sketch, setup.executor, ReproducibilityCheck(setup, source), audit, review
     )
     key = (proposal.round, proposal.candidate) if proposal.candidate else (proposal.round,)
     columns = partial(BatchEvaluated.from_trials, proposal.round, proposal.candidate)

@@ -1,6 +1,5 @@
 """The continuous constraint satisfaction problem as plain data, and the one pure function on it."""
 
-import hashlib
 import json
 from dataclasses import dataclass
 from functools import cached_property
@@ -20,7 +19,7 @@ from proc3s.specs.domain import ScreenSpec, TaskSpec
 
 @dataclass(frozen=True)
 class Problem:
-    """A CCSP: a domain, an initial state, a goal in words, a program, a seed and a budget of samples.
+    """A CCSP: a domain, an initial state, a goal in words, a seed and a budget of samples.
 
     It hashes, pickles and replays; `scene` is the initial state as JSON. With `check_goal` a plan must
     also satisfy the judges of the task; with `robust` it must pass as many rehearsals. `screens` and
@@ -33,7 +32,6 @@ class Problem:
     goal: str
     seed: int
     samples: int
-    program: str = ""
     check_goal: bool = False
     robust: int = 0
     screens: Literal["all", "exact", "none"] = "all"
@@ -55,17 +53,12 @@ class Problem:
         return {name: value for name, value in self.__dict__.items() if name != "initial"}
 
     def __hash__(self) -> int:
-        return hash((self.scene, self.program, self.goal, self.seed))
+        return hash((self.scene, self.goal, self.seed))
 
     def active_screens(self, stateful: bool) -> tuple[ScreenSpec, ...]:
         """The screens that may be used, of one of the two sorts."""
         wanted = {"all": (True, False), "exact": (True,), "none": ()}[self.screens]
         return tuple(s for s in self.domain.screens if s.exact in wanted and s.stateful == stateful)
-
-    def digest(self) -> str:
-        """SHA-256 over everything that the verdict on a plan depends on."""
-        spec = self.domain.spec.model_dump_json()
-        return hashlib.sha256(f"{spec}\n{self.scene}\n{self.program}".encode()).hexdigest()
 
 
 def _score(problem: Problem, target: Target, final: State, plan: Plan) -> Score:
