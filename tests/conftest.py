@@ -10,8 +10,9 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 
 import pytest
-from provider import running
 from typer.testing import CliRunner
+
+from provider import running
 
 collect_ignore = ["example_plugin"]  # a package of its own, tested where it is installed
 

@@ -7,7 +7,24 @@ constraints by `use: [pick, place, kinematic, collision, grasp, placement]`.
 from collections.abc import Callable
 
 from proc3s import ConstraintSpec, SamplerSpec, SkillSpec, hookimpl
+from proc3s.moved import MovedModules
 from proc3s.specs.domain import ParamSpec
+
+MovedModules(
+    __name__,
+    {
+        "scenes": ["tasks.scenes"],
+        "judges": ["tasks.judges"],
+        "formations": ["tasks.formations"],
+        "standing": ["tasks.standing"],
+        "selection": ["tasks.selection"],
+        "programs": ["tasks.state_methods"],
+        "grasp_sampler": ["tasks.grasp_sampler"],
+        "execution": ["world"],
+        "grasp_screen": ["screens.grasps"],
+        "body_specs": ["catalogue.body_specs"],
+    },
+).install()
 
 NOISE = 1.0
 """Standard deviation of the Gaussian methods at full scale, m (the paper)."""

@@ -1,6 +1,7 @@
 """Answers that a language model might give."""
 
 import pytest
+
 from sample_answers import OUTSIDE, STAR
 
 LITERAL = """

@@ -11,6 +11,7 @@ from pathlib import Path
 from urllib.parse import unquote, urljoin, urlsplit
 
 import pytest
+
 from browser import needs_chromium, visiting
 
 ROOT = Path(__file__).parents[2]

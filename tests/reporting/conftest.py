@@ -4,6 +4,7 @@ import json
 from types import SimpleNamespace
 
 import pytest
+
 from sample_answers import OUTSIDE
 
 WIDER = OUTSIDE.replace("ContinuousSampler(0, 1)", "ContinuousSampler(0, 2)").replace("-1, 1, x", "0.5, y, x")

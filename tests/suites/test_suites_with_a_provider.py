@@ -1,9 +1,9 @@
 """Suites against a real server on this machine: failures in passing, what they cost, where keys go."""
 
 import pytest
-from provider import refuses
 
 from proc3s.suites.store import FILE, Store
+from provider import refuses
 
 # The import of litellm takes seconds, in every process anew.
 pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("litellm")]
