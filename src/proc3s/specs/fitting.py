@@ -1,10 +1,12 @@
 """Whether what a spec names takes what it is called with, and says what a sentence asks for."""
 
+import functools
 import inspect
 import re
 import sys
 from collections.abc import Iterator, Mapping
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 from proc3s.errors import SpecError, did_you_mean
@@ -40,36 +42,37 @@ def unfit_constraint(spec: ConstraintSpec) -> list[tuple[str, str]]:
 
 
 def _missing_details(spec: ConstraintSpec) -> Iterator[tuple[str, str]]:
-    """Placeholders of a sentence whose name stands nowhere in the code that the margin comes from."""
-    wanted = placeholders(spec.says)
-    if not wanted or not (known := _words(spec)):
-        return
-    for name in wanted:
-        if name not in known:
-            yield "says", f"no margin of {spec.target} carries a detail {name!r}{_near(name, known)}"
+    """Placeholders of a sentence that are misspelled: not in the code of the margin, and nearly a word of it.
 
-
-def _near(name: str, known: set[str]) -> str:
-    hint = did_you_mean(name, known)
-    return hint if "did you mean" in hint else ""
-
-
-def _words(spec: ConstraintSpec) -> set[str]:
-    """Every word in the code of the target's package, and of the plugins that its module imports."""
+    A detail may be named in code that is not found, so a name that is near to nothing is let pass.
+    """
     module = inspect.getmodule(spec.load())
-    if module is None:
-        return set()
-    near = {module.__name__, *(getattr(value, "__module__", None) for value in vars(module).values())}
-    packages = {name.partition(".")[0] for name in near if name}
-    own = {p for p in packages if p.startswith("proc3s_") or p == module.__name__.partition(".")[0]}
-    return {word for path in sorted(_sources(own)) for word in _WORD.findall(_text(path))}
+    own = _words_in(Path(getattr(module, "__file__", None) or ""))
+    for name in placeholders(spec.says):
+        if name in own or name in (known := _words(_packages(module))):
+            continue
+        if "did you mean" in (hint := did_you_mean(name, known)):
+            yield "says", f"no margin of {spec.target} carries a detail {name!r}{hint}"
 
 
-def _sources(packages: set[str]) -> Iterator[Path]:
-    for package in packages:
-        file = getattr(sys.modules.get(package), "__file__", None)
-        path = Path(file or "")
-        yield from path.parent.rglob("*.py") if path.name == "__init__.py" else [path]
+def _packages(module: ModuleType | None) -> frozenset[str]:
+    """The package of a module, and those that it takes something from."""
+    taken = (getattr(value, "__module__", None) for value in vars(module).values()) if module else ()
+    names = {module.__name__ if module else "", *taken}
+    return frozenset(name.partition(".")[0] for name in names if name)
+
+
+@functools.cache
+def _words(packages: frozenset[str]) -> frozenset[str]:
+    """Every word in the code of those packages that are plugins: that name proc3s where they begin."""
+    files = (Path(getattr(sys.modules.get(package), "__file__", None) or "") for package in packages)
+    plugins = [file for file in files if "proc3s" in _text(file)]
+    sources = [s for f in plugins for s in (f.parent.rglob("*.py") if f.name == "__init__.py" else [f])]
+    return frozenset(word for path in sources for word in _words_in(path))
+
+
+def _words_in(path: Path) -> set[str]:
+    return set(_WORD.findall(_text(path)))
 
 
 def _text(path: Path) -> str:
