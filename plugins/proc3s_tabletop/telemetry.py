@@ -116,10 +116,6 @@ class Telemetry:
     bounds: Bound | None = None
     """The least distance inside the table of the target and of every object that is not in hand."""
 
-    def displacement(self, name: str) -> Displacement | None:
-        """The displacement of one object, if it was measured."""
-        return next((d for d in self.displacements or () if d.name == name), None)
-
 
 def least(clearances: "list[Clearance | None]") -> Clearance | None:
     """The smallest of the clearances that exist; ties go to the first."""

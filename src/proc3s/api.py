@@ -155,13 +155,6 @@ def _registry(
     return open_registry(_paths(plugins), [GivenParts(given)] if given else [])
 
 
-def _llm_spec(name: str, llm: LLM) -> LLMSpec:
-    def make(model: str, options: object) -> LLM:
-        return llm
-
-    return LLMSpec(name=name, target=make, summary="given in Python", usage=name)
-
-
 def _carry_out(
     job: Job, registry: Registry, out: Path | str | None, on_event: Emit | None, progress: bool
 ) -> Result:

@@ -32,7 +32,6 @@ def test_a_sketch_becomes_plans(box):
     assert len(batch) == 700
     assert not batch.errors
     assert batch.plan(699) == (Action("draw_line", (50.0, 50.0, 100 * u[699, 0], 20 + 20 * u[699, 1])),)
-    assert sketch.values(u[0]) == {"x": 100 * u[0, 0], "y": 20 + 20 * u[0, 1]}
 
 
 def test_several_batches_of_odd_sizes_equal_one(box):
@@ -61,7 +60,6 @@ def test_discrete_choices_keep_their_types_and_parameters_their_order(box):
                     "first": DiscreteSampler(np.arange(3))}
     """)
     assert list(sketch.space.samplers) == ["first", "last", "mode"]
-    assert sketch.values(np.array([0.99, 0.0, 0.0])) == {"first": 2, "last": True, "mode": "near"}
     batch = sketch.plans(np.array([[0.99, 0.0, 0.0], [0.0, 0.6, 0.6]]))
     assert batch.plan(0) == (Action("look", ((2.0, 1.0, 3.0), "near")),)
     assert batch.plan(1) == (Action("look", ((0.0, 0.0, 3.0), "far")),)

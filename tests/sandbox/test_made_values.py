@@ -74,7 +74,6 @@ def test_the_program_gets_an_object_and_its_neighbours_keep_their_places():
         ]
         assert batch.plan(1)[1].args[1] == Pose(2.0, 0, 0, 0, 0, 0.125)
         assert batch.plan(1)[2].args[1] == "far"
-        assert sketch.values(u[0]) == {"times": 7, "grasp": (1.0, 0, 0, 0, 0, 0.5), "mode": "near"}
 
 
 def test_what_the_parameter_does_is_checked_before_sampling():

@@ -62,7 +62,6 @@ class Recorder(LLM):
         self._take = take or secrets.token_hex(4)
         self._cassettes: dict[Path, Cassette] = {}
         self.live = llm.live
-        self.price = llm.price
         if path.is_dir() or not path.suffix:
             _prepare_folder(path)
         elif path.suffix == ".jsonl":

@@ -4,7 +4,7 @@ Each `register_*` hook is called once with a callable that takes one spec at a t
 """
 
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from proc3s import specs
@@ -12,8 +12,6 @@ if TYPE_CHECKING:
     from proc3s.search.problem import Problem
     from proc3s.specs.suite import SuiteSpec
 from proc3s.markers import hookspec
-
-Register: TypeAlias = "Callable[[specs.Spec], None]"
 
 
 @hookspec

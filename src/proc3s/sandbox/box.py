@@ -1,6 +1,5 @@
 """The boxed sketch: a program of a language model, loaded in a locked worker process of its own."""
 
-import itertools
 import json
 import weakref
 from dataclasses import dataclass
@@ -93,11 +92,10 @@ class BoxedSketch:
         _check_size(program.source, limits)
         self._start()
         try:
-            self._parameters = self._load(probe)
+            self.space = space_of(self._load(probe))
         except BaseException:
             self.close()
             raise
-        self.space = space_of(self._parameters)
 
     def __enter__(self) -> "BoxedSketch":
         return self
@@ -144,11 +142,6 @@ class BoxedSketch:
                 self._restarts.spend(error, replies.first + replies.done)
                 replies.fail(error)
                 self._renew()
-
-    def values(self, u_row: FloatArray) -> dict[str, float | int | str | bool | tuple[float, ...]]:
-        """What the parameters of gen_plan are at one point of the cube, by name."""
-        columns = iter(self.space.decode(u_row.reshape(1, -1))[0].tolist())
-        return {p.name: p.value([*itertools.islice(columns, len(p.drawn()))]) for p in self._parameters}
 
     def _checked(self, batch: PlanBatch, replies: Replies) -> PlanBatch:
         if len(batch) < replies.done:

@@ -22,7 +22,6 @@ class OpenParameter:
 
     name: str
     sampler: Sampler | None
-    choices: tuple[Scalar, ...] = ()
 
     def drawn(self, rng: np.random.Generator | None = None) -> list[float | None]:
         """A value at random, else that in the middle of the cube, as it crosses."""
@@ -32,12 +31,6 @@ class OpenParameter:
         u = np.full(shape, 0.5) if rng is None else rng.random(shape)
         value: list[float | None] = decoded(self.sampler, u)[0].tolist()
         return value
-
-    def value(self, columns: list[float]) -> Scalar | tuple[float, ...]:
-        """What gen_plan gets for the numbers that cross; several as they are."""
-        if self.choices:
-            return self.choices[int(columns[0])]
-        return columns[0] if len(columns) == 1 else tuple(columns)
 
 
 def open_parameters(
@@ -69,10 +62,9 @@ def _open(read: ReadParameter, known: Mapping[str, SamplerSpec]) -> OpenParamete
         if isinstance(value, list) is not (kind == "list"):
             raise Malformed("a sampler has wrong arguments")
         args[name] = [_cleaned(v) for v in value] if isinstance(value, list) else value
-    choices = tuple(args[next(iter(spec.params))]) if spec.gives == "choice" else ()
     make = spec.load()
     with blame(f"sampler {spec.name}", ValueError):
-        return OpenParameter(read.name, make(**args), choices)
+        return OpenParameter(read.name, make(**args))
 
 
 def _cleaned(value: Scalar) -> Scalar:
