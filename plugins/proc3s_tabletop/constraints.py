@@ -15,7 +15,7 @@ from proc3s_tabletop.telemetry import TABLE, Displacement, Telemetry
 
 Step: TypeAlias = Transition[Telemetry]
 
-RECIPE = ReferenceSettings()
+SETTINGS = ReferenceSettings()
 PAD_WIDTH = 0.018
 """What the grid of rays between the pads spans, m: turns its share that is met into a distance."""
 UNMEASURED = 1e-3
@@ -36,7 +36,7 @@ def kinematic(step: Step) -> Margin | None:
     residual = step.telemetry.ik_residual
     if residual is None:
         return None
-    return Margin(RECIPE.ik_tolerance - residual)
+    return Margin(SETTINGS.ik_tolerance - residual)
 
 
 def collision(step: Step, highest: float) -> Margin | None:
@@ -50,7 +50,7 @@ def collision(step: Step, highest: float) -> Margin | None:
         return min(found, key=lambda margin: margin.value)
     if measured.ended and measured.clearance is None:
         return None
-    return Margin(max(0.0, measured.clearance.distance) if measured.clearance else RECIPE.near)
+    return Margin(max(0.0, measured.clearance.distance) if measured.clearance else SETTINGS.near)
 
 
 def grasp(step: Step) -> Margin | None:
@@ -72,10 +72,10 @@ def grasp(step: Step) -> Margin | None:
 
 def _spare(measured: Telemetry) -> Iterator[float]:
     """How much of what was measured could be lost without losing the object."""
-    yield RECIPE.max_slip - (measured.slip or 0.0)
-    yield (RECIPE.max_slip_angle - (measured.slip_angle or 0.0)) * LEVER
+    yield SETTINGS.max_slip - (measured.slip or 0.0)
+    yield (SETTINGS.max_slip_angle - (measured.slip_angle or 0.0)) * LEVER
     if measured.cover is not None:
-        yield (measured.cover - RECIPE.min_cover) * PAD_WIDTH
+        yield (measured.cover - SETTINGS.min_cover) * PAD_WIDTH
 
 
 def placement(step: Step, moved: float, turned: float, lowest: float) -> Margin | None:
@@ -121,13 +121,13 @@ def _contact(step: Step) -> Iterator[Margin]:
     carried = " in the hand" if body == measured.target else ""
     details = {"body": thing(step, body) + carried, "other": thing(step, other)}
     details["when"] = COLLISIONS[measured.ended]
-    yield Margin(min(measured.clearance.distance, -RECIPE.touch), details)
+    yield Margin(min(measured.clearance.distance, -SETTINGS.touch), details)
 
 
 def _squeezed(step: Step) -> Iterator[Margin]:
     """A contact in an action that came to its end: where the arm yields, that does not stop it."""
     clearance = step.telemetry.clearance
-    if not step.telemetry.ended and clearance and clearance.distance < -RECIPE.penetration:
+    if not step.telemetry.ended and clearance and clearance.distance < -SETTINGS.penetration:
         details = {"body": thing(step, clearance.body), "other": thing(step, clearance.other)}
         yield Margin(clearance.distance, {**details, "when": "where the fingers close or open"})
 
@@ -178,13 +178,13 @@ def _lack(step: Step) -> float:
     """By how much a grasp failed, as far as the stage at which it did measured that."""
     measured = step.telemetry
     if measured.ended == "grasp" and measured.cover:
-        return max(UNMEASURED, (RECIPE.min_cover - measured.cover) * PAD_WIDTH)
+        return max(UNMEASURED, (SETTINGS.min_cover - measured.cover) * PAD_WIDTH)
     if measured.ended == "grasp":
-        return max(RECIPE.min_cover * PAD_WIDTH, _meant(step)[1])
+        return max(SETTINGS.min_cover * PAD_WIDTH, _meant(step)[1])
     if measured.ended == "lift":
-        return max(RECIPE.touch, -min(_spare(measured)))
+        return max(SETTINGS.touch, -min(_spare(measured)))
     if measured.ended == "approach" and measured.clearance:
-        return max(RECIPE.touch, -measured.clearance.distance)
+        return max(SETTINGS.touch, -measured.clearance.distance)
     return UNMEASURED
 
 
@@ -211,7 +211,7 @@ def _not_held_so(step: Step) -> str:
 def _bounds(step: Step) -> Margin:
     bound = step.telemetry.bounds
     if bound is None:
-        return Margin(RECIPE.near, {"why": ""})
+        return Margin(SETTINGS.near, {"why": ""})
     what = "the commanded point" if bound.name == "target" else thing(step, bound.name)
     return Margin(bound.distance, {"why": f"{what} lies outside the bounds of the table"})
 

@@ -160,7 +160,7 @@ def test_the_skills_are_those_of_the_reference_world(world):
     moved = world.observe().objects["object_1"].pose
     assert placed.after == world.observe()
     assert (moved.x, moved.y) == pytest.approx((-0.15, -0.4), abs=0.02)
-    assert world.table.scene.recipe.speed == 1.02
+    assert world.table.scene.settings.speed == 1.02
 
 
 def test_a_closed_world_has_no_client(world):

@@ -53,11 +53,11 @@ def mesh(path, **more):
 
 def stays(body):
     start = Frame((0.0, 0.0, body.height), (0.0, 0.0, 0.0, 1.0))
-    bench = GripSimulator({"thing": body}, ReferenceSettings())
+    grips = GripSimulator({"thing": body}, ReferenceSettings())
     try:
-        found = bench.rest(((body, start),))
+        found = grips.rest(((body, start),))
     finally:
-        bench.close()
+        grips.close()
     assert found.at_rest
     assert found.frames[0].position == pytest.approx(start.position, abs=3e-4)
     assert abs(found.frames[0].rotation[3]) > np.cos(0.005 / 2)

@@ -7,7 +7,7 @@ from tables import bodies_of, carry_out, frames_of
 
 from proc3s_tabletop.bullet.grip_cache import GripSimulator
 from proc3s_tabletop.bullet.scene import Snapshot
-from proc3s_tabletop.bullet.simulation import Things
+from proc3s_tabletop.bullet.simulation import TableScene
 from proc3s_tabletop.objects.body import CATEGORIES
 from proc3s_tabletop.robot.frames import Frame
 from proc3s_tabletop.robot.settings import ReferenceSettings
@@ -18,7 +18,7 @@ LEVEL = (0.0, 0.0, 0.0, 1.0)
 
 
 @pytest.fixture
-def bench():
+def simulator():
     made = GripSimulator(bodies_of(SCENE), ReferenceSettings())
     yield made
     made.close()
@@ -28,8 +28,10 @@ def bench():
 def ticks(monkeypatch):
     """Counts how often time passes."""
     counted = []
-    tick = Things.tick
-    monkeypatch.setattr(Things, "tick", lambda self, count=1: (counted.append(count), tick(self, count))[1])
+    tick = TableScene.tick
+    monkeypatch.setattr(
+        TableScene, "tick", lambda self, count=1: (counted.append(count), tick(self, count))[1]
+    )
     return counted
 
 
@@ -48,19 +50,19 @@ def seen_from(frame, x, y):
     return [px - x, py - y, pz, *frame.rotation]
 
 
-def test_a_rest_is_the_same_wherever_it_happens(bench):
-    here, there = bench.rest(on_top(0.0, -0.5)), bench.rest(on_top(0.17, -0.33))
+def test_a_rest_is_the_same_wherever_it_happens(simulator):
+    here, there = simulator.rest(on_top(0.0, -0.5)), simulator.rest(on_top(0.17, -0.33))
     for a, b in zip(here.frames, there.frames, strict=True):
         assert seen_from(a, 0.0, -0.5) == pytest.approx(seen_from(b, 0.17, -0.33), abs=1e-7)
     assert here.at_rest
 
 
-def test_a_grip_is_the_same_wherever_it_happens_and_whichever_way_it_turns(bench, ticks):
+def test_a_grip_is_the_same_wherever_it_happens_and_whichever_way_it_turns(simulator, ticks):
     def grip(x, y, yaw):
         # A block 4 mm off across the hand, turned with it.
         off = (x + 0.004 * math.sin(yaw), y - 0.004 * math.cos(yaw), 0.02)
         turned = (0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2))
-        return bench.grip(tool(x, y, 0.02, yaw), ((BLOCK, Frame(off, turned)),), 1.0)
+        return simulator.grip(tool(x, y, 0.02, yaw), ((BLOCK, Frame(off, turned)),), 1.0)
 
     first = grip(0.0, -0.5, 0.0)
     assert first.telemetry.ended is None
@@ -70,17 +72,17 @@ def test_a_grip_is_the_same_wherever_it_happens_and_whichever_way_it_turns(bench
     assert len(ticks) == spent
 
 
-def test_what_is_asked_again_is_not_simulated_again(bench, ticks):
-    once = bench.rest(on_top(0.0, -0.5))
+def test_what_is_asked_again_is_not_simulated_again(simulator, ticks):
+    once = simulator.rest(on_top(0.0, -0.5))
     spent = len(ticks)
     assert spent > 0
-    assert bench.rest(on_top(0.0, -0.5)) == once
+    assert simulator.rest(on_top(0.0, -0.5)) == once
     assert len(ticks) == spent
-    bench.rest(on_top(0.0, -0.5, off=0.011))
+    simulator.rest(on_top(0.0, -0.5, off=0.011))
     assert len(ticks) > spent
 
 
-def test_a_used_bench_gives_what_a_fresh_one_gives(bench):
+def test_a_used_bench_gives_what_a_fresh_one_gives(simulator):
     questions = [on_top(0.0, -0.5, off) for off in (0.0, 0.005, 0.017, 0.03)]
     grips = [(tool(0.0, -0.5, 0.02), ((BLOCK, Frame((dx, -0.5, 0.02), LEVEL)),), 1.0) for dx in (0.0, 0.008)]
 
@@ -94,12 +96,12 @@ def test_a_used_bench_gives_what_a_fresh_one_gives(bench):
 
     assert answers(questions, grips) == answers(questions[::-1], grips[::-1])
     for question in questions:
-        assert bench.rest(question) == answers([question], [])[question]
+        assert simulator.rest(question) == answers([question], [])[question]
 
 
-def test_speed_and_place_in_the_hand_matter(bench):
+def test_speed_and_place_in_the_hand_matter(simulator):
     def held(dx, speed):
-        return bench.grip(tool(0.0, -0.5, 0.02), ((BLOCK, Frame((dx, -0.5, 0.02), LEVEL)),), speed).held
+        return simulator.grip(tool(0.0, -0.5, 0.02), ((BLOCK, Frame((dx, -0.5, 0.02), LEVEL)),), speed).held
 
     assert len({held(0.0, 1.0), held(0.005, 1.0), held(0.0, 1.05)}) == 3
 

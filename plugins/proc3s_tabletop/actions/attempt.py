@@ -18,7 +18,7 @@ class Attempt:
 
     def __init__(self, scene: Simulation, attempted: Attempted, grasp: FloatArray) -> None:
         self.scene = scene
-        self.recipe: ReferenceSettings = scene.recipe
+        self.settings: ReferenceSettings = scene.settings
         held = scene.held.name if scene.held else None
         x, y, z = grasp[:3, 3].tolist()
         self.telemetry = Telemetry(attempted, (x, y, z), held=held)

@@ -27,17 +27,17 @@ def flaws_of(
         for name, frame in frames.items()
         if (inside := inside_table(*frame.position[:2])) < 0
     ]
-    with closing(engine().hand_scene(bodies, ReferenceSettings())) as things:
-        things.hand.put(*ALOFT)
-        things.bring_back(frames)
-        for one, other, depth in _overlaps(things):
+    with closing(engine().hand_scene(bodies, ReferenceSettings())) as scene:
+        scene.hand.put(*ALOFT)
+        scene.bring_back(frames)
+        for one, other, depth in _overlaps(scene):
             what, where = called(objects, one), called(objects, other)
             flaws.append(f"{what} is {1000 * depth:.0f} mm deep in {where}")
     return flaws
 
 
-def _overlaps(things: HandSimulation) -> Iterator[tuple[str, str, float]]:
+def _overlaps(scene: HandSimulation) -> Iterator[tuple[str, str, float]]:
     """Pairs of names, and how deep they are in one another, m."""
-    for one, other in itertools.combinations((*things.names, TABLE), 2):
-        if (depth := things.depth(one, other)) > SUNK:
+    for one, other in itertools.combinations((*scene.names, TABLE), 2):
+        if (depth := scene.depth(one, other)) > SUNK:
             yield one, other, depth

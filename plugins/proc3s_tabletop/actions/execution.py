@@ -59,7 +59,7 @@ def pick(attempt: Attempt, grasp: FloatArray) -> None:
     motors.to(line.q[0])
     motors.down(line)
     attempt.note_clearance(least([*scene.hand_clearances().values()]))
-    motors.fingers(attempt.recipe.finger_closed)
+    motors.fingers(attempt.settings.finger_closed)
     name = scene.between_pads()
     gripped = _note_grip(attempt, name) if name else None
     motors.up(line)
@@ -73,8 +73,8 @@ def pick(attempt: Attempt, grasp: FloatArray) -> None:
 
 def place(attempt: Attempt, grasp: FloatArray) -> None:
     """Set down at a pose (4, 4) of the grasp point what is in the hand, and leave it."""
-    scene, recipe, motors = attempt.scene, attempt.recipe, Motors(attempt.scene)
-    line = line_down(attempt, grasp, recipe.press)
+    scene, settings, motors = attempt.scene, attempt.settings, Motors(attempt.scene)
+    line = line_down(attempt, grasp, settings.press)
     held = scene.held
     name = held.name if held else None
     motors.to(line.q[0])
@@ -88,7 +88,7 @@ def place(attempt: Attempt, grasp: FloatArray) -> None:
     baseline = attempt.before | _in_hand(attempt)
     scene.held = None
     height = motors.height() - float(grasp[2, 3])
-    motors.fingers(scene.robot.angle_for(scene.robot.gap() + 2 * recipe.open_margin))
+    motors.fingers(scene.robot.angle_for(scene.robot.gap() + 2 * settings.open_margin))
     attempt.note_clearance(least([*scene.hand_clearances(name).values()]))
     motors.up(line)
     motors.fingers(0.0)

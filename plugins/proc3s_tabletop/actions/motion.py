@@ -31,20 +31,20 @@ def line_down(attempt: Attempt, grasp: FloatArray, beyond: float = 0.0) -> Line:
     The branch nearest to where the arm is comes first; one that breaks off on the way is passed over.
     Ends the action at `reach` where none is left.
     """
-    recipe, z = attempt.recipe, grasp[2, 3]
-    steps = max(2, math.ceil(recipe.hover / (recipe.line_spacing * recipe.speed)))
-    heights = np.linspace(z + recipe.hover, z, steps + 1)
+    settings, z = attempt.settings, grasp[2, 3]
+    steps = max(2, math.ceil(settings.hover / (settings.line_spacing * settings.speed)))
+    heights = np.linspace(z + settings.hover, z, steps + 1)
     if beyond > 0:
         heights = np.append(heights, z - beyond)
     grasps = np.repeat(grasp[None], len(heights), axis=0)
     grasps[:, 2, 3] = heights
     q = _joints(attempt, grasps)
     if q is None:
-        attempt.note(ik_residual=max(_miss(grasps[0]), _miss(grasps[steps]), recipe.line_spacing))
+        attempt.note(ik_residual=max(_miss(grasps[0]), _miss(grasps[steps]), settings.line_spacing))
         attempt.stop("reach")
     residual = float(np.linalg.norm((ik.forward(q) @ tool_to_grasp() - grasps)[:, :3, 3], axis=1).max())
     attempt.note(ik_residual=residual)
-    if residual > recipe.ik_tolerance:
+    if residual > settings.ik_tolerance:
         attempt.stop("reach")
     return Line(q, heights)
 
@@ -56,7 +56,7 @@ def _joints(attempt: Attempt, grasps: FloatArray) -> FloatArray | None:
     for branch in ik.nearest_first(solutions[0], exists[0], here):
         if exists[:, branch].all():
             q = ik.unwound(solutions[:, branch], here)
-            if np.abs(np.diff(q, axis=0)).max() <= attempt.recipe.branch_jump and _within_limits(q):
+            if np.abs(np.diff(q, axis=0)).max() <= attempt.settings.branch_jump and _within_limits(q):
                 return q
     return None
 
@@ -106,7 +106,7 @@ def follow(attempt: Attempt, q: FloatArray, stage: Stage, gripped: str | None = 
 
 def travel(attempt: Attempt, q: FloatArray, stage: Stage, gripped: str | None = None) -> None:
     """Go straight in joint space to angles (6,)."""
-    recipe, here = attempt.recipe, attempt.scene.robot.q
-    distance = np.abs(q - here).max() * recipe.reach
-    steps = max(1, math.ceil(distance / (recipe.move_spacing * recipe.speed)))
+    settings, here = attempt.settings, attempt.scene.robot.q
+    distance = np.abs(q - here).max() * settings.reach
+    steps = max(1, math.ceil(distance / (settings.move_spacing * settings.speed)))
     follow(attempt, here + (q - here) * (np.arange(1, steps + 1) / steps)[:, None], stage, gripped)

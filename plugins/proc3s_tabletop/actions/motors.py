@@ -41,7 +41,7 @@ class Motors:
     def __init__(self, scene: Simulation) -> None:
         self._scene = scene
         self._robot = scene.robot
-        self._recipe = scene.recipe
+        self._settings = scene.settings
 
     def to(self, q: FloatArray) -> None:
         """Go straight in joint space to angles (6,) and wait until the arm stands."""
@@ -76,7 +76,7 @@ class Motors:
         still = 0
         for tick in range(FINGERS_MOST):
             self._scene.tick()
-            slow = abs(self._robot.read_fingers()[1]) < self._recipe.stall_speed
+            slow = abs(self._robot.read_fingers()[1]) < self._settings.stall_speed
             still = still + 1 if slow and tick > FINGERS_LEAST else 0
             if still >= STALL:
                 break
@@ -85,7 +85,7 @@ class Motors:
         self, path: FloatArray, way: FloatArray, seconds: float, guard: Callable[[], bool] | None = None
     ) -> bool:
         """Command angles (n, 6) met at `way` (n,), in 1.5 times the seconds at top speed; True if guarded."""
-        ticks = max(1, math.ceil(1.5 * seconds / (self._recipe.tick * self._recipe.speed)))
+        ticks = max(1, math.ceil(1.5 * seconds / (self._settings.tick * self._settings.speed)))
         share = np.arange(1, ticks + 1) / ticks
         smooth = way[-1] * share**2 * (3 - 2 * share)
         for target in np.stack([np.interp(smooth, way, joint) for joint in path.T], axis=1):

@@ -10,10 +10,10 @@ from proc3s_tabletop.robot.settings import inside_table
 from proc3s_tabletop.telemetry import Bound, displacement
 
 
-def rest(attempt: Attempt, bench: GripSimulation, names: Sequence[str]) -> None:
+def rest(attempt: Attempt, grips: GripSimulation, names: Sequence[str]) -> None:
     """Let objects come to rest, if there are any; all others are at rest."""
     scene = attempt.scene
-    found = bench.rest(scene.lies(names)) if names else None
+    found = grips.rest(scene.lies(names)) if names else None
     if found:
         scene.bring_back(dict(zip(names, found.frames, strict=True)))
     attempt.note(at_rest=found is None or found.at_rest)
@@ -29,7 +29,7 @@ def compare(
         for name, before in baseline.items()
         if not scene.held or name != scene.held.name
     )
-    tilted = attempt.recipe.knocked_over
+    tilted = attempt.settings.knocked_over
     over = tuple(d.name for d in moved if d.leaned > tilted and d.name != released)
     attempt.note(displacements=moved, knocked_over=over)
 

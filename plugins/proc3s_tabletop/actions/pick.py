@@ -16,7 +16,7 @@ from proc3s_tabletop.robot.widths import too_wide
 from proc3s_tabletop.telemetry import Clearance, least
 
 
-def pick(attempt: Attempt, grasp: FloatArray, bench: GripSimulation) -> None:
+def pick(attempt: Attempt, grasp: FloatArray, grips: GripSimulation) -> None:
     """Grasp what is at a pose (4, 4) of the grasp point and lift it."""
     if attempt.scene.held:
         attempt.stop("hand")
@@ -27,11 +27,11 @@ def pick(attempt: Attempt, grasp: FloatArray, bench: GripSimulation) -> None:
     attempt.note_clearance(least([*near.values()]))
     name = between_fingers(attempt)
     # What neither the hand nor the object can reach, even through others, takes no part.
-    touchable = [other for other, c in near.items() if c.distance < attempt.recipe.stir]
+    touchable = [other for other, c in near.items() if c.distance < attempt.settings.stir]
     there = attempt.scene.company([name, *touchable])
     others = [other for other in attempt.scene.names if other in there - {name}]
-    grip(attempt, bench, name, others)
-    lift(attempt, bench, line, name, others)
+    grip(attempt, grips, name, others)
+    lift(attempt, grips, line, name, others)
 
 
 def between_fingers(attempt: Attempt) -> str:
@@ -43,7 +43,7 @@ def between_fingers(attempt: Attempt) -> str:
     name = max(shares, key=lambda n: shares[n], default=None)
     most = shares[name] if name else 0.0
     attempt.note(cover=most, target=name if most > 0 else None)
-    if name is None or most < attempt.recipe.min_cover:
+    if name is None or most < attempt.settings.min_cover:
         attempt.stop("grasp")
     return name
 
@@ -61,10 +61,10 @@ def note_width(attempt: Attempt, grasp: FloatArray) -> None:
             attempt.note(too_wide=name)
 
 
-def grip(attempt: Attempt, bench: GripSimulation, name: str, others: list[str]) -> None:
+def grip(attempt: Attempt, grips: GripSimulation, name: str, others: list[str]) -> None:
     """Close the fingers on an object and shake it; what lies near enough to be touched takes part."""
     scene, names = attempt.scene, [name, *others]
-    found = bench.grip(Frame(*scene.robot.tool()), scene.lies(names), scene.recipe.speed)
+    found = grips.grip(Frame(*scene.robot.tool()), scene.lies(names), scene.settings.speed)
     measured = found.telemetry
     attempt.note(finger_gap=measured.finger_gap, grip_force=measured.grip_force)
     attempt.note(slip=measured.slip, slip_angle=measured.slip_angle)
@@ -82,13 +82,13 @@ def _named(found: Clearance | None, names: list[str]) -> Clearance | None:
     return dataclasses.replace(found, other=names[int(found.other)])
 
 
-def lift(attempt: Attempt, bench: GripSimulation, line: Line, name: str, others: list[str]) -> None:
+def lift(attempt: Attempt, grips: GripSimulation, line: Line, name: str, others: list[str]) -> None:
     """Back up with the object fixed to the hand, then let the others come to rest."""
     up, heights = line.q[-2::-1], line.heights[-2::-1]
     for q, height in zip(up, heights, strict=True):
         put(attempt, q)
-        _clear(attempt, name, bool(height - line.heights[-1] > attempt.recipe.lift_off))
-    rest(attempt, bench, others)
+        _clear(attempt, name, bool(height - line.heights[-1] > attempt.settings.lift_off))
+    rest(attempt, grips, others)
     put(attempt, line.q[0])
     _clear(attempt, name, True)
     compare(attempt, attempt.before)

@@ -29,14 +29,14 @@ class Stand(NamedTuple):
     obstruction: Obstruction | None
 
 
-def place(attempt: Attempt, grasp: FloatArray, bench: GripSimulation) -> None:
+def place(attempt: Attempt, grasp: FloatArray, grips: GripSimulation) -> None:
     """Set the held object down at a pose (4, 4) of the grasp point and leave it."""
     scene = attempt.scene
     if not scene.held:
         attempt.stop("hand")
     name = scene.held.name
     attempt.note(target=name)
-    line = line_down(attempt, grasp, attempt.recipe.press)
+    line = line_down(attempt, grasp, attempt.settings.press)
     travel(attempt, line.q[0], "carry", name)
     stand = descend(attempt, line, name)
     drop = 0.0
@@ -44,7 +44,7 @@ def place(attempt: Attempt, grasp: FloatArray, bench: GripSimulation) -> None:
         note_support(attempt, stand.obstruction.held, stand.height - float(grasp[2, 3]))
     else:
         drop = measure_drop(attempt, name)
-    release(attempt, bench, line, stand, name, drop)
+    release(attempt, grips, line, stand, name, drop)
 
 
 def descend(attempt: Attempt, line: Line, name: str) -> Stand:
@@ -57,7 +57,7 @@ def descend(attempt: Attempt, line: Line, name: str) -> Stand:
     found = stand.obstruction
     if found and not found.held and stand.height > commanded.height + 1e-9:
         attempt.stop("descent", found.robot)
-    if found and found.held and not any(abs(t.normal[2]) >= attempt.recipe.supporting for t in found.held):
+    if found and found.held and not any(abs(t.normal[2]) >= attempt.settings.supporting for t in found.held):
         attempt.stop("descent", deepest(found.held))
     if not found or not found.held:
         stand = commanded
@@ -78,7 +78,7 @@ def _guarded(attempt: Attempt, line: Line, name: str) -> Stand:
 
 def _bisect(attempt: Attempt, free: Stand, blocked: Stand, name: str) -> Stand:
     """Close in on the contact between a free and a blocked way-point."""
-    for _ in range(attempt.recipe.bisections):
+    for _ in range(attempt.settings.bisections):
         q, height = (free.q + blocked.q) / 2, (free.height + blocked.height) / 2
         found = _obstruction(attempt, q, name)
         if found:
@@ -102,15 +102,15 @@ def note_support(attempt: Attempt, touches: list[Touch], height: float) -> None:
 
 def measure_drop(attempt: Attempt, name: str) -> float:
     """How far the object will fall, metres, found by sweeping it down; onto nothing ends the action."""
-    recipe = attempt.recipe
+    settings = attempt.settings
     start = attempt.scene.frame(name)
-    drops = np.arange(recipe.drop_step, recipe.drop_most + 1e-9, recipe.drop_step)
+    drops = np.arange(settings.drop_step, settings.drop_most + 1e-9, settings.drop_step)
     low = next((float(drop) for drop in drops if _lowered(attempt, name, start, drop)), None)
     if low is None:
-        attempt.note(support_height=-recipe.drop_most)
+        attempt.note(support_height=-settings.drop_most)
         attempt.stop("support")
-    high = low - recipe.drop_step
-    for _ in range(recipe.bisections):
+    high = low - settings.drop_step
+    for _ in range(settings.bisections):
         middle = (low + high) / 2
         low, high = (middle, high) if _lowered(attempt, name, start, middle) else (low, middle)
     note_support(attempt, _lowered(attempt, name, start, low), -high)
@@ -127,7 +127,7 @@ def _lowered(attempt: Attempt, name: str, start: Frame, drop: float) -> list[Tou
 
 
 def release(
-    attempt: Attempt, bench: GripSimulation, line: Line, stand: Stand, name: str, drop: float
+    attempt: Attempt, grips: GripSimulation, line: Line, stand: Stand, name: str, drop: float
 ) -> None:
     """Open no further than needed, go up, and let everything come to rest; the baseline is taken before."""
     scene, robot = attempt.scene, attempt.scene.robot
@@ -137,8 +137,8 @@ def release(
     open_fingers(attempt, stand, name)
     above = line.q[line.heights > stand.height + 1e-9][::-1]
     follow(attempt, np.vstack([stand.q, above]), "release")
-    near = scene.company([name, *scene.near(name, attempt.recipe.fall)])
-    rest(attempt, bench, [name, *(other for other in scene.names if other in near - {name})])
+    near = scene.company([name, *scene.near(name, attempt.settings.fall)])
+    rest(attempt, grips, [name, *(other for other in scene.names if other in near - {name})])
     compare(attempt, baseline, name, drop)
     robot.put_arm(line.q[0])
     robot.put_fingers(0.0)
@@ -148,7 +148,7 @@ def open_fingers(attempt: Attempt, stand: Stand, name: str) -> None:
     """Open to the width of the object and a margin, looking half-way and at the end."""
     scene, robot = attempt.scene, attempt.scene.robot
     gap = robot.gap()
-    closed, opened = robot.angle, robot.angle_for(gap + 2 * attempt.recipe.open_margin)
+    closed, opened = robot.angle, robot.angle_for(gap + 2 * attempt.settings.open_margin)
     attempt.note(finger_gap=gap)
     for angle, gripped in (((closed + opened) / 2, name), (opened, name)):
         robot.put_fingers(angle)

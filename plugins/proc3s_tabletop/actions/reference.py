@@ -24,18 +24,21 @@ class Reference(Table):
     """
 
     def __init__(
-        self, bodies: Mapping[str, Body], frames: Mapping[str, Frame], recipe: ReferenceSettings | None = None
+        self,
+        bodies: Mapping[str, Body],
+        frames: Mapping[str, Frame],
+        settings: ReferenceSettings | None = None,
     ) -> None:
-        super().__init__(bodies, frames, recipe)
-        self._bench = engine().grips(bodies, self.scene.recipe)
+        super().__init__(bodies, frames, settings)
+        self._grips = engine().grips(bodies, self.scene.settings)
 
     def pick_at(self, grasp: FloatArray) -> Telemetry:
         """Grasp and lift; ends early where that fails."""
-        return self._carry_out("pick", functools.partial(pick, bench=self._bench), grasp)
+        return self._carry_out("pick", functools.partial(pick, grips=self._grips), grasp)
 
     def place_at(self, grasp: FloatArray) -> Telemetry:
         """Set down and leave; ends early where that fails."""
-        return self._carry_out("place", functools.partial(place, bench=self._bench), grasp)
+        return self._carry_out("place", functools.partial(place, grips=self._grips), grasp)
 
     def _refusal(self, name: str, apart: float | None) -> Telemetry | None:
         """A place needs that object in hand, by that grasp."""
@@ -64,5 +67,5 @@ class Reference(Table):
 
     def close(self) -> None:
         """Give up both simulators."""
-        self._bench.close()
+        self._grips.close()
         super().close()

@@ -26,9 +26,12 @@ class Table(ABC):
     """
 
     def __init__(
-        self, bodies: Mapping[str, Body], frames: Mapping[str, Frame], recipe: ReferenceSettings | None = None
+        self,
+        bodies: Mapping[str, Body],
+        frames: Mapping[str, Frame],
+        settings: ReferenceSettings | None = None,
     ) -> None:
-        self.scene: Simulation = engine().scene(bodies, recipe or ReferenceSettings())
+        self.scene: Simulation = engine().scene(bodies, settings or ReferenceSettings())
         self.put(frames)
 
     def put(self, frames: Mapping[str, Frame]) -> None:
@@ -37,8 +40,8 @@ class Table(ABC):
 
     def set_speed(self, speed: float) -> None:
         """Scale the speed of arm and fingers."""
-        recipe = dataclasses.replace(self.scene.recipe, speed=speed)
-        self.scene.recipe = self.scene.robot.recipe = recipe
+        settings = dataclasses.replace(self.scene.settings, speed=speed)
+        self.scene.settings = self.scene.robot.settings = settings
 
     @abstractmethod
     def pick_at(self, grasp: FloatArray) -> Telemetry:

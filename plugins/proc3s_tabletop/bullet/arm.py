@@ -41,12 +41,12 @@ class Robot(Hand):
     """
 
     def __init__(
-        self, client: Client, recipe: ReferenceSettings, folder: Path, visuals: bool = False
+        self, client: Client, settings: ReferenceSettings, folder: Path, visuals: bool = False
     ) -> None:
         write_robot(folder / "robot.urdf", visuals)
         flags = client.URDF_USE_INERTIA_FROM_FILE | client.URDF_USE_SELF_COLLISION
         super().__init__(
-            client, recipe, client.loadURDF(str(folder / "robot.urdf"), useFixedBase=1, flags=flags)
+            client, settings, client.loadURDF(str(folder / "robot.urdf"), useFixedBase=1, flags=flags)
         )
         self.base = self._links["base_link_inertia"]
         self._parts = {k: ARM_LINKS.get(name, "gripper") for name, k in self._links.items()}

@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from typing import Any
 
-from proc3s_tabletop.bullet.simulation import Things
+from proc3s_tabletop.bullet.simulation import TableScene
 from proc3s_tabletop.engine.values import Touch
 from proc3s_tabletop.telemetry import Clearance, least
 
@@ -14,13 +14,13 @@ _TOUCHING = 0.001
 """Bodies nearer than this hold one another, m."""
 
 
-def robot_contact(scene: Things, gripped: str | None = None) -> Clearance | None:
+def robot_contact(scene: TableScene, gripped: str | None = None) -> Clearance | None:
     """The deepest contact of the robot, with itself too; the hand may touch the object it grips."""
-    depth, points = -scene.recipe.penetration, scene.client.getContactPoints(scene.robot.id)
+    depth, points = -scene.settings.penetration, scene.client.getContactPoints(scene.robot.id)
     return least([_robot_contact(scene, p, gripped) for p in points if p[DISTANCE] < depth])
 
 
-def _robot_contact(scene: Things, point: Any, gripped: str | None) -> Clearance | None:
+def _robot_contact(scene: TableScene, point: Any, gripped: str | None) -> Clearance | None:
     robot, other = scene.robot, point[BODY_B]
     if other == robot.id:
         return Clearance(point[DISTANCE], robot.part(point[LINK_A]), robot.part(point[LINK_B]))
@@ -29,28 +29,28 @@ def _robot_contact(scene: Things, point: Any, gripped: str | None) -> Clearance 
     return Clearance(point[DISTANCE], robot.part(point[LINK_A]), scene.named[other])
 
 
-def held_touches(scene: Things, name: str) -> list[Touch]:
+def held_touches(scene: TableScene, name: str) -> list[Touch]:
     """What an object in hand touches, the robot apart."""
     points = scene.client.getContactPoints(scene.bodies[name])
     return [
         Touch(Clearance(p[DISTANCE], name, scene.named[p[BODY_B]]), p[NORMAL])
         for p in points
-        if p[BODY_B] != scene.robot.id and p[DISTANCE] < -scene.recipe.touch
+        if p[BODY_B] != scene.robot.id and p[DISTANCE] < -scene.settings.touch
     ]
 
 
-def grip_force(scene: Things, name: str) -> float:
+def grip_force(scene: TableScene, name: str) -> float:
     """Normal force of the side of the hand that presses an object less, newtons."""
     points = scene.client.getContactPoints(scene.robot.id, scene.bodies[name])
     return min(float(sum(p[FORCE] for p in points if p[LINK_A] in side)) for side in scene.robot.sides)
 
 
-def hand_clearances(scene: Things, gripped: str | None = None) -> dict[str, Clearance]:
+def hand_clearances(scene: TableScene, gripped: str | None = None) -> dict[str, Clearance]:
     """The smallest distance of the robot to everything near but the gripped object, by name."""
     robot, found = scene.robot, {}
     for other, name in scene.named.items():
         if name != gripped:
-            points = scene.client.getClosestPoints(robot.id, other, scene.recipe.near)
+            points = scene.client.getClosestPoints(robot.id, other, scene.settings.near)
             clearance = least(
                 [
                     Clearance(p[DISTANCE], robot.part(p[LINK_A]), name)
@@ -63,7 +63,7 @@ def hand_clearances(scene: Things, gripped: str | None = None) -> dict[str, Clea
     return found
 
 
-def company(scene: Things, names: Iterable[str]) -> set[str]:
+def company(scene: TableScene, names: Iterable[str]) -> set[str]:
     """The objects among `names`, and all that touch them, directly or through others.
 
     Boxes that only just meet have no contact points in PyBullet, so whatever is within 1 mm counts.

@@ -1,13 +1,13 @@
 """What presses on what while time passes: contacts that carry a force, by name."""
 
 from proc3s_tabletop.bullet.contacts import BODY_B, FORCE, LINK_A, NORMAL, grip_force
-from proc3s_tabletop.bullet.simulation import Things
+from proc3s_tabletop.bullet.simulation import TableScene
 
 GUARD = 2.0
 """A force that stops a guarded descent, newtons: three times the weight of a block."""
 
 
-def between_pads(scene: Things) -> str | None:
+def between_pads(scene: TableScene) -> str | None:
     """The object that both sides of the hand press, the hardest first."""
     forces = {name: grip_force(scene, name) for name in scene.bodies}
     return _hardest({name: force for name, force in forces.items() if force > 0})
@@ -19,7 +19,7 @@ class Guard:
     `support` is then what the load has met, if it was the load.
     """
 
-    def __init__(self, scene: Things, held: str | None) -> None:
+    def __init__(self, scene: TableScene, held: str | None) -> None:
         self._scene, self._held = scene, held
         self.support: str | None = None
 
@@ -35,7 +35,7 @@ class Guard:
         return True
 
 
-def support(scene: Things, name: str) -> str | None:
+def support(scene: TableScene, name: str) -> str | None:
     """What pushes an object up hardest."""
     return _hardest(_presses(scene, name))
 
@@ -44,7 +44,7 @@ def _hardest(forces: dict[str, float]) -> str | None:
     return max(forces, key=lambda n: forces[n], default=None)
 
 
-def _presses(scene: Things, name: str | None) -> dict[str, float]:
+def _presses(scene: TableScene, name: str | None) -> dict[str, float]:
     """The bodies that press an object, the robot apart, and the upward part of how hard they do, newtons."""
     forces: dict[str, float] = {}
     for point in scene.client.getContactPoints(scene.bodies[name]) if name else ():

@@ -26,8 +26,8 @@ class GripSimulator:
     whichever of them are meant, the first ones of the same sort stand in for them. Close it after use.
     """
 
-    def __init__(self, bodies: Mapping[str, Body], recipe: ReferenceSettings) -> None:
-        self._bodies, self._recipe = bodies, recipe
+    def __init__(self, bodies: Mapping[str, Body], settings: ReferenceSettings) -> None:
+        self._bodies, self._settings = bodies, settings
         self._made: HandScene | None = None
         self._known_grip = functools.lru_cache(MOST)(self._grip)
         self._known_rest = functools.lru_cache(MOST)(self._rest)
@@ -47,33 +47,33 @@ class GripSimulator:
 
     def _grip(self, setup: GripSetup) -> Grip:
         names = list(self._stand_ins(setup.lies))
-        things, robot = self._things, self._things.hand
-        robot.recipe = dataclasses.replace(self._recipe, speed=setup.speed)
+        scene, robot = self._scene, self._scene.hand
+        robot.settings = dataclasses.replace(self._settings, speed=setup.speed)
         self._lay(names, setup.lies, setup.tool)
-        return try_grip(things, names)
+        return try_grip(scene, names)
 
     def _rest(self, lies: Lies) -> Rest:
         names = list(self._stand_ins(lies))
         self._lay(names, lies, ALOFT)
-        self._things.set_iterations(self._recipe.iterations)
-        at_rest = settle(self._things, names)
-        return Rest(tuple(self._things.frame(name) for name in names), at_rest)
+        self._scene.set_iterations(self._settings.iterations)
+        at_rest = settle(self._scene, names)
+        return Rest(tuple(self._scene.frame(name) for name in names), at_rest)
 
     @property
-    def _things(self) -> HandScene:
-        """The simulated bench, made when it is first needed."""
+    def _scene(self) -> HandScene:
+        """The simulated table, made when it is first needed."""
         if self._made is None:
-            self._made = HandScene(self._bodies, self._recipe)
+            self._made = HandScene(self._bodies, self._settings)
         return self._made
 
     def _lay(self, names: Iterable[str], lies: Lies, tool: Frame) -> None:
         """Put hand and things where they are to be, so that nothing earlier matters."""
-        self._things.hand.put(*ALOFT)
-        self._things.hand.put_fingers(0.0)
-        self._things.hand.drive_fingers(0.0)
-        self._things.clear()
-        self._things.hand.put(*tool)
-        self._things.bring_back({name: frame for name, (_, frame) in zip(names, lies, strict=True)})
+        self._scene.hand.put(*ALOFT)
+        self._scene.hand.put_fingers(0.0)
+        self._scene.hand.drive_fingers(0.0)
+        self._scene.clear()
+        self._scene.hand.put(*tool)
+        self._scene.bring_back({name: frame for name, (_, frame) in zip(names, lies, strict=True)})
 
     def _stand_ins(self, lies: Lies) -> Iterator[str]:
         """For everything that lies there the first body of the same sort that is not taken yet."""
@@ -88,14 +88,14 @@ class GripSimulator:
 
     def _moved(self, there: Frame, frame: Frame) -> Frame:
         """A frame after a transform, rounded; of the two quaternions of a turn that with a positive start."""
-        moved = Frame(*self._things.client.multiplyTransforms(*there, *frame))
+        moved = Frame(*self._scene.client.multiplyTransforms(*there, *frame))
         position, rotation = rounded(moved, DIGITS, DIGITS)
         first = next(v for v in rotation if v)
         x, y, z, w = (v if first > 0 else -v for v in rotation)
         return Frame(position, (x, y, z, w))
 
     def _back(self, there: Frame, frames: Iterable[Frame]) -> tuple[Frame, ...]:
-        client = self._things.client
+        client = self._scene.client
         back = client.invertTransform(*there)
         return tuple(Frame(*client.multiplyTransforms(*back, *frame)) for frame in frames)
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from proc3s_tabletop.bullet.contacts import grip_force, robot_contact
-from proc3s_tabletop.bullet.simulation import Things
+from proc3s_tabletop.bullet.simulation import TableScene
 from proc3s_tabletop.engine.values import Grip
 from proc3s_tabletop.objects.body import Body
 from proc3s_tabletop.robot.frames import Frame
@@ -35,50 +35,50 @@ def upright(tool: Frame) -> Frame:
     return Frame((s * py - c * px, -s * px - c * py, 0.0), (0.0, 0.0, math.sin(turn / 2), math.cos(turn / 2)))
 
 
-def try_grip(things: Things, names: list[str]) -> Grip:
+def try_grip(scene: TableScene, names: list[str]) -> Grip:
     """Close the fingers on the first of the things named and shake it; the others lie around it."""
-    telemetry = close(things, names[0])
+    telemetry = close(scene, names[0])
     if not telemetry.ended:
-        telemetry = shake(things, names[0], telemetry)
-    others = tuple(things.frame(name) for name in names[1:])
-    angle = things.robot.read_fingers()[0]
-    return Grip(_by_place(telemetry, names), angle, things.in_tool(names[0]), others)
+        telemetry = shake(scene, names[0], telemetry)
+    others = tuple(scene.frame(name) for name in names[1:])
+    angle = scene.robot.read_fingers()[0]
+    return Grip(_by_place(telemetry, names), angle, scene.in_tool(names[0]), others)
 
 
-def close(things: Things, name: str) -> Telemetry:
+def close(scene: TableScene, name: str) -> Telemetry:
     """Close the fingers until they stand still; both must press the object and nothing else be touched."""
-    recipe, robot = things.recipe, things.robot
-    things.set_iterations(recipe.grip_iterations)
-    robot.drive_fingers(recipe.finger_closed)
+    settings, robot = scene.settings, scene.robot
+    scene.set_iterations(settings.grip_iterations)
+    robot.drive_fingers(settings.finger_closed)
     still = 0
-    for tick in range(recipe.close_most):
-        things.tick()
-        if tick % recipe.check_every == 0 and (touched := robot_contact(things, name)):
+    for tick in range(settings.close_most):
+        scene.tick()
+        if tick % settings.check_every == 0 and (touched := robot_contact(scene, name)):
             return Telemetry(ended="close", clearance=touched)
-        slow = abs(robot.read_fingers()[1]) < recipe.stall_speed
-        still = still + 1 if slow and tick > recipe.close_least else 0
-        if still >= recipe.stall:
+        slow = abs(robot.read_fingers()[1]) < settings.stall_speed
+        still = still + 1 if slow and tick > settings.close_least else 0
+        if still >= settings.stall:
             break
-    if touched := robot_contact(things, name):
+    if touched := robot_contact(scene, name):
         return Telemetry(ended="close", clearance=touched)
-    force = grip_force(things, name)
+    force = grip_force(scene, name)
     ended: Stage | None = "close" if force <= 0 else None
     return Telemetry(ended=ended, finger_gap=robot.gap(), grip_force=force)
 
 
-def shake(things: Things, name: str, closed: Telemetry) -> Telemetry:
+def shake(scene: TableScene, name: str, closed: Telemetry) -> Telemetry:
     """The lift test: nothing but the fingers holds the object, it is pulled about; how far does it slip?"""
-    recipe = things.recipe
-    gripped = things.in_tool(name)
-    things.let_collide(name, False)
+    settings = scene.settings
+    gripped = scene.in_tool(name)
+    scene.let_collide(name, False)
     slip = angle = 0.0
-    for pull, ticks in recipe.shake:
+    for pull, ticks in settings.shake:
         for _ in range(ticks):
-            things.push(name, pull)
-            things.tick()
-        moved = displacement(name, gripped, things.in_tool(name))
+            scene.push(name, pull)
+            scene.tick()
+        moved = displacement(name, gripped, scene.in_tool(name))
         slip, angle = max(slip, float(np.hypot(moved.level, moved.upright))), max(angle, moved.turned)
-        if slip > recipe.max_slip or angle > recipe.max_slip_angle:
+        if slip > settings.max_slip or angle > settings.max_slip_angle:
             return dataclasses.replace(closed, ended="lift", slip=slip, slip_angle=angle)
     return dataclasses.replace(closed, slip=slip, slip_angle=angle)
 

@@ -31,11 +31,11 @@ class Hand(ABC):
     base = -2
     """Links after this one are compared with what is near."""
 
-    def __init__(self, client: Client, recipe: ReferenceSettings, body: int) -> None:
-        self.client, self.recipe, self.id = client, recipe, body
+    def __init__(self, client: Client, settings: ReferenceSettings, body: int) -> None:
+        self.client, self.settings, self.id = client, settings, body
         self._name_parts()
         self._gear_up()
-        self._angles = np.linspace(recipe.finger_closed, 0.0, 17)
+        self._angles = np.linspace(settings.finger_closed, 0.0, 17)
         self._gaps = [self._gap_at(angle) for angle in self._angles]
 
     def _name_parts(self) -> None:
@@ -69,7 +69,7 @@ class Hand(ABC):
             client.changeDynamics(
                 self.id,
                 pad,
-                lateralFriction=self.recipe.pad_friction,
+                lateralFriction=self.settings.pad_friction,
                 spinningFriction=0.002,
             )
 
@@ -100,15 +100,15 @@ class Hand(ABC):
 
     def drive_fingers(self, angle: float) -> None:
         """Let the motor of the fingers turn them towards an angle."""
-        client, recipe = self.client, self.recipe
+        client, settings = self.client, self.settings
         client.setJointMotorControl2(
             self.id,
             self._driver,
             client.POSITION_CONTROL,
             targetPosition=angle,
-            force=recipe.finger_torque,
+            force=settings.finger_torque,
             positionGain=0.15,
-            maxVelocity=recipe.finger_speed * recipe.speed,
+            maxVelocity=settings.finger_speed * settings.speed,
         )
 
     def read_fingers(self) -> tuple[float, float]:
@@ -144,11 +144,11 @@ class Hand(ABC):
 class FloatingHand(Hand):
     """The hand alone, without an arm, fixed in the air where it is put."""
 
-    def __init__(self, client: Client, recipe: ReferenceSettings, folder: Path) -> None:
+    def __init__(self, client: Client, settings: ReferenceSettings, folder: Path) -> None:
         write_hand(folder / "hand.urdf")
         flags = client.URDF_USE_INERTIA_FROM_FILE
         body = client.loadURDF(str(folder / "hand.urdf"), useFixedBase=1, flags=flags)
-        super().__init__(client, recipe, body)
+        super().__init__(client, settings, body)
         self.hand_links |= {-1}
         self._inertial = self.client.getDynamicsInfo(self.id, -1)[3:5]
 

@@ -5,21 +5,21 @@ from collections.abc import Mapping
 from proc3s_tabletop.bullet import rays
 from proc3s_tabletop.bullet.contacts import DISTANCE
 from proc3s_tabletop.bullet.hand import FloatingHand
-from proc3s_tabletop.bullet.simulation import Things
+from proc3s_tabletop.bullet.simulation import TableScene
 from proc3s_tabletop.objects.body import Body
 from proc3s_tabletop.robot.settings import ReferenceSettings
 from proc3s_tabletop.telemetry import TABLE
 
 
-class HandScene(Things):
+class HandScene(TableScene):
     """A table with its top at z = 0, the named bodies, and a floating hand."""
 
     robot: FloatingHand
 
     cover = rays.cover
 
-    def __init__(self, bodies: Mapping[str, Body], recipe: ReferenceSettings) -> None:
-        super().__init__(bodies, recipe, FloatingHand)
+    def __init__(self, bodies: Mapping[str, Body], settings: ReferenceSettings) -> None:
+        super().__init__(bodies, settings, FloatingHand)
 
     @property
     def hand(self) -> FloatingHand:

@@ -7,14 +7,14 @@ import numpy as np
 from proc3s_tabletop.bullet import contacts, forces, rays
 from proc3s_tabletop.bullet.arm import Robot
 from proc3s_tabletop.bullet.settle import settle as settled
-from proc3s_tabletop.bullet.simulation import Things
+from proc3s_tabletop.bullet.simulation import TableScene
 from proc3s_tabletop.engine.snapshot import Snapshot
 from proc3s_tabletop.objects.body import Body
 from proc3s_tabletop.robot.frames import Held, rounded
 from proc3s_tabletop.robot.settings import HOME, ReferenceSettings
 
 
-class Scene(Things):
+class Scene(TableScene):
     """A table with its top at z = 0, the robot, and the named bodies."""
 
     robot: Robot
@@ -29,8 +29,8 @@ class Scene(Things):
     cover = rays.cover
     settle = settled
 
-    def __init__(self, bodies: Mapping[str, Body], recipe: ReferenceSettings) -> None:
-        super().__init__(bodies, recipe, Robot)
+    def __init__(self, bodies: Mapping[str, Body], settings: ReferenceSettings) -> None:
+        super().__init__(bodies, settings, Robot)
         for link in (-1, *self.robot.links):
             # The base stands on the table.
             on = int(link > self.robot.base)
@@ -42,7 +42,7 @@ class Scene(Things):
 
     def load(self, snapshot: Snapshot) -> None:
         """Put everything where a snapshot has it, bit for bit the same whatever the client did before."""
-        self.set_iterations(self.recipe.iterations)
+        self.set_iterations(self.settings.iterations)
         self.robot.put_arm(np.array(HOME))
         self.robot.put_fingers(0.0)
         self.clear()

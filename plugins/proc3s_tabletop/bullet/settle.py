@@ -2,23 +2,23 @@
 
 from collections.abc import Iterable, Sequence
 
-from proc3s_tabletop.bullet.simulation import Things
+from proc3s_tabletop.bullet.simulation import TableScene
 
 
-def settle(things: Things, names: Sequence[str]) -> bool:
+def settle(scene: TableScene, names: Sequence[str]) -> bool:
     """Let time pass until these objects are still at two looks in a row; False if the time is up before."""
-    recipe = things.recipe
-    things.tick(recipe.settle_first)
-    ticks, looks = recipe.settle_first, int(still(things, names))
-    while looks < 2 and ticks < recipe.settle_most:
-        things.tick(recipe.settle_look)
-        ticks += recipe.settle_look
-        looks = looks + 1 if still(things, names) else 0
+    settings = scene.settings
+    scene.tick(settings.settle_first)
+    ticks, looks = settings.settle_first, int(still(scene, names))
+    while looks < 2 and ticks < settings.settle_most:
+        scene.tick(settings.settle_look)
+        ticks += settings.settle_look
+        looks = looks + 1 if still(scene, names) else 0
     return looks == 2
 
 
-def still(things: Things, names: Iterable[str]) -> bool:
+def still(scene: TableScene, names: Iterable[str]) -> bool:
     """Whether none of these objects moves."""
-    recipe = things.recipe
-    speeds = (things.speeds(name) for name in names)
-    return all(v <= recipe.still_speed and w <= recipe.still_turn for v, w in speeds)
+    settings = scene.settings
+    speeds = (scene.speeds(name) for name in names)
+    return all(v <= settings.still_speed and w <= settings.still_turn for v, w in speeds)

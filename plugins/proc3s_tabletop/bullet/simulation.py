@@ -21,21 +21,21 @@ GRAVITY = (0.0, 0.0, -9.8)
 MakeHand: TypeAlias = Callable[[Client, ReferenceSettings, Path], Hand]
 
 
-class Things:
+class TableScene:
     """A table with its top at z = 0, the named bodies, parked until they are put somewhere, and a hand."""
 
     robot: Hand
 
-    def __init__(self, bodies: Mapping[str, Body], recipe: ReferenceSettings, hand: MakeHand) -> None:
-        self.recipe = recipe
+    def __init__(self, bodies: Mapping[str, Body], settings: ReferenceSettings, hand: MakeHand) -> None:
+        self.settings = settings
         self.client = client = Client()
-        client.setTimeStep(recipe.tick)
+        client.setTimeStep(settings.tick)
         client.setGravity(*GRAVITY)
         # Contacts are then solved in an order that does not depend on what happened before.
         client.setPhysicsEngineParameter(deterministicOverlappingPairs=1)
         with tempfile.TemporaryDirectory() as folder:
             self.table = self._table()
-            self.robot = hand(client, recipe, Path(folder))
+            self.robot = hand(client, settings, Path(folder))
             self.bodies = {
                 name: create(body, client, Path(folder), _parked(k))
                 for k, (name, body) in enumerate(bodies.items())
@@ -49,7 +49,7 @@ class Things:
         client = self.client
         slab = client.createCollisionShape(client.GEOM_BOX, halfExtents=[1.0, 1.0, 0.05])
         table = int(client.createMultiBody(0, slab, -1, [0, -0.5, -0.05]))
-        client.changeDynamics(table, -1, lateralFriction=self.recipe.table_friction)
+        client.changeDynamics(table, -1, lateralFriction=self.settings.table_friction)
         return table
 
     def close(self) -> None:

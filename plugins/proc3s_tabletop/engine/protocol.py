@@ -20,7 +20,7 @@ class Hand(Protocol):
     """A hand of two fingers; `angle` is the one that its fingers are driven to, 0 wide open."""
 
     angle: float
-    recipe: ReferenceSettings
+    settings: ReferenceSettings
 
     def tool(self) -> tuple[Vector, Quaternion]:
         """The pose of tool0."""
@@ -78,10 +78,10 @@ class Guard(Protocol):
         """Whether anything presses the hand or what it holds, each other apart."""
 
 
-class Bench(Protocol):
+class TableSimulation(Protocol):
     """A table with named bodies: what is common to all simulations of one."""
 
-    recipe: ReferenceSettings
+    settings: ReferenceSettings
     shapes: Mapping[str, Body]
 
     @property
@@ -116,7 +116,7 @@ class Bench(Protocol):
         """Release the simulator."""
 
 
-class HandSimulation(Bench, Protocol):
+class HandSimulation(TableSimulation, Protocol):
     """Bodies on a table under a hand without an arm."""
 
     @property
@@ -130,7 +130,7 @@ class HandSimulation(Bench, Protocol):
         """How deep two objects, or an object and TABLE, are in one another, metres; 0 if they are not."""
 
 
-class Simulation(Bench, Protocol):
+class Simulation(TableSimulation, Protocol):
     """Bodies on a table under a robot, put into a snapshot so that nothing earlier matters."""
 
     held: Held | None

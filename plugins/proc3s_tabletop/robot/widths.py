@@ -24,8 +24,8 @@ def too_wide(shape: Shape, grasps: FloatArray) -> Bools:
 
     Shape (n,). What lies beyond a pad does not count: it may be a wall with the finger inside.
     """
-    recipe = ReferenceSettings()
-    grid = [(0.0, across, along) for along in recipe.cover_along for across in recipe.cover_across]
+    settings = ReferenceSettings()
+    grid = [(0.0, across, along) for along in settings.cover_along for across in settings.cover_across]
     starts = (grasps[:, None, :3, :3] @ np.array(grid)[..., None])[..., 0] + grasps[:, None, :3, 3]
     low, high = np.full(starts.shape[:2], np.inf), np.full(starts.shape[:2], -np.inf)
     for planes in _parts(shape):

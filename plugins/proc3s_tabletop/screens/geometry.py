@@ -17,53 +17,53 @@ from proc3s_tabletop.robot.grasp_frames import tool_poses, top_down
 from proc3s_tabletop.robot.settings import ReferenceSettings
 from proc3s_tabletop.screens.batch import BatchScreening, Skill, Verdicts
 from proc3s_tabletop.screens.layout import Bools, Layout, Rows, solids
-from proc3s_tabletop.screens.pick import foresee_pick
-from proc3s_tabletop.screens.place import foresee_place
+from proc3s_tabletop.screens.pick import screen_pick
+from proc3s_tabletop.screens.place import screen_place
 from proc3s_tabletop.skills import pick, place
 
-RECIPE = ReferenceSettings()
-Foresee: TypeAlias = Callable[[BatchScreening, Layout, int, Rows, FloatArray], None]
-SKILLS: dict[Skill, Foresee] = {pick: foresee_pick, place: foresee_place}
+SETTINGS = ReferenceSettings()
+ScreenSkill: TypeAlias = Callable[[BatchScreening, Layout, int, Rows, FloatArray], None]
+SKILLS: dict[Skill, ScreenSkill] = {pick: screen_pick, place: screen_place}
 
 
 def geometry(state: State, batch: PlanBatch, domain: Domain) -> Verdicts:
     """Boxes seen from above: fingers that come down on things, picks of nothing, places without support."""
     bodies = bodies_of(domain.spec.world.args.get("bodies"))
-    foresight = BatchScreening(state, batch, domain)
-    lie = Layout(solids(state.objects, bodies), len(batch))  # type: ignore[attr-defined]
-    if not lie.bodies.names:
-        return foresight.verdicts
+    screening = BatchScreening(state, batch, domain)
+    layout = Layout(solids(state.objects, bodies), len(batch))  # type: ignore[attr-defined]
+    if not layout.bodies.names:
+        return screening.verdicts
     with np.errstate(invalid="ignore"):  # infinite slack
-        for step in foresight.steps:
-            if not foresight.leave_all_but(SKILLS, step):
+        for step in screening.steps:
+            if not screening.leave_all_but(SKILLS, step):
                 break
-            for skill, foresee in SKILLS.items():
-                rows, at = foresight.at(step, skill)
+            for skill, screen in SKILLS.items():
+                rows, at = screening.at(step, skill)
                 if rows.size:
-                    foresee(foresight, lie, step, rows, at)
-    return foresight.verdicts
+                    screen(screening, layout, step, rows, at)
+    return screening.verdicts
 
 
 def reach(state: State, batch: PlanBatch, domain: Domain) -> Verdicts:
     """The ends of every way down in closed form: what no branch of the arm reaches."""
-    foresight = BatchScreening(state, batch, domain)
+    screening = BatchScreening(state, batch, domain)
     asked = [
-        (step, skill, *foresight.at(step, skill))
-        for step in foresight.steps
-        if foresight.leave_all_but(SKILLS, step)
+        (step, skill, *screening.at(step, skill))
+        for step in screening.steps
+        if screening.leave_all_but(SKILLS, step)
         for skill in SKILLS
     ]
     if not asked:
-        return foresight.verdicts
-    low = [at - np.array([0, 0, RECIPE.press if skill is place else 0.0]) for _, skill, _, at in asked]
-    high = [at + np.array([0, 0, RECIPE.hover]) for *_, at in asked]
+        return screening.verdicts
+    low = [at - np.array([0, 0, SETTINGS.press if skill is place else 0.0]) for _, skill, _, at in asked]
+    high = [at + np.array([0, 0, SETTINGS.hover]) for *_, at in asked]
     missed = iter(np.split(~_reached(low, high), np.cumsum([len(at) for at in low])[:-1]))
     for step, _, rows, _ in asked:
-        fails = next(missed) & foresight.open[rows]
+        fails = next(missed) & screening.open[rows]
         # By how much, only the world measures: at least the next way-point.
-        margins = np.full(int(fails.sum()), -RECIPE.line_spacing)
-        foresight.reject(step, kinematic, rows[fails], margins, lambda i: {})
-    return foresight.verdicts
+        margins = np.full(int(fails.sum()), -SETTINGS.line_spacing)
+        screening.reject(step, kinematic, rows[fails], margins, lambda i: {})
+    return screening.verdicts
 
 
 def _reached(*ends: list[FloatArray]) -> Bools:

@@ -15,7 +15,7 @@ from proc3s_tabletop.screens.layout import Bools
 from proc3s_tabletop.screens.lone_grasps import LoneGrasps, lone_grasps
 from proc3s_tabletop.skills import pick_object, place_object
 
-RECIPE = ReferenceSettings()
+SETTINGS = ReferenceSettings()
 KNOWN = (pick_object, place_object)
 """What a plan does before a pick may be these only: another skill may tip things over."""
 NEAR = 2e-4
@@ -30,14 +30,14 @@ def grasps(state: State, batch: PlanBatch, domain: Domain) -> Verdicts:
     Others may be in the way besides, so nothing is known of a grasp that passes. A grasp follows its thing,
     so it does not matter if that has been pushed along, as long as it has not been tipped over.
     """
-    foresight = BatchScreening(state, batch, domain)
+    screening = BatchScreening(state, batch, domain)
     picks = [s for s in batch.signatures if skill_of(domain, s) is pick_object]
     if picks:
         alone = _Alone(state, domain, picks[0].params[0].choices)
         # lift tests are dear: they are for plans of which no grasp fails otherwise
         for reject in (_misfits, _slips):
-            _foresee(foresight, alone, reject)
-    return foresight.verdicts
+            _screen(screening, alone, reject)
+    return screening.verdicts
 
 
 Rejected: TypeAlias = tuple[Bools, FloatArray, list[str]]
@@ -61,29 +61,29 @@ class _Alone:
         return lone_grasps(body, round(thing.pose.roll, 4), round(thing.pose.pitch, 4))
 
 
-def _foresee(foresight: BatchScreening, alone: _Alone, reject: Reject) -> None:
+def _screen(screening: BatchScreening, alone: _Alone, reject: Reject) -> None:
     """Put the first pick of every object in every plan to a test."""
-    picked = np.zeros((len(foresight.open), len(alone.names)), bool)
-    known = foresight.first_other(KNOWN)
-    for step in foresight.steps:
-        rows, values = foresight.at(step, pick_object, 7)
+    picked = np.zeros((len(screening.open), len(alone.names)), bool)
+    known = screening.first_other(KNOWN)
+    for step in screening.steps:
+        rows, values = screening.at(step, pick_object, 7)
         rows, values = rows[step < known[rows]], values[step < known[rows]]
         which, wanted = values[:, 0].astype(int), values[:, 1:]
         new = ~picked[rows, which]
         picked[rows, which] = True
         for number in np.unique(which[new]):
             mine = new & (which == number)
-            bad, margins, whys = reject(alone.of(number), wanted[mine], foresight.called(alone.names[number]))
+            bad, margins, whys = reject(alone.of(number), wanted[mine], screening.called(alone.names[number]))
             told = [{"why": why} for why, is_bad in zip(whys, bad, strict=True) if is_bad]
-            foresight.reject(step, grasp, rows[mine][bad], margins[bad], told.__getitem__)
+            screening.reject(step, grasp, rows[mine][bad], margins[bad], told.__getitem__)
 
 
 def _misfits(known: LoneGrasps, wanted: FloatArray, what: str) -> Rejected:
     """Fingers that come down on the body, or get too little of it between them."""
     depth, cover = known.fits(wanted).T
-    meets: Bools = depth > RECIPE.penetration + NEAR
-    poor: Bools = ~meets & (cover < RECIPE.min_cover - SPARE)
-    margins = np.where(meets, -depth, np.minimum((cover - RECIPE.min_cover) * PAD_WIDTH, -UNMEASURED))
+    meets: Bools = depth > SETTINGS.penetration + NEAR
+    poor: Bools = ~meets & (cover < SETTINGS.min_cover - SPARE)
+    margins = np.where(meets, -depth, np.minimum((cover - SETTINGS.min_cover) * PAD_WIDTH, -UNMEASURED))
     words = (
         f"the fingers come down on {what} instead of around it",
         f"the fingers get too little of {what} between them",

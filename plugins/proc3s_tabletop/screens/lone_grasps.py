@@ -54,12 +54,12 @@ class LoneGrasps:
 
     def __init__(self, body: Body, roll: float, pitch: float) -> None:
         self._body, self._there = body, _at_rest(body, roll, pitch)
-        self._recipe = recipe = dataclasses.replace(
+        self._settings = settings = dataclasses.replace(
             ReferenceSettings(),
             max_slip=ReferenceSettings().max_slip * LENIENCE,
             max_slip_angle=ReferenceSettings().max_slip_angle * LENIENCE,
         )
-        said = f"{FORMAT} {body!r} {roll!r} {pitch!r} {recipe!r}"
+        said = f"{FORMAT} {body!r} {roll!r} {pitch!r} {settings!r}"
         self._kept = Verdicts(hashlib.sha256(said.encode()).hexdigest())
         self._known = self._kept.read()
 
@@ -94,26 +94,26 @@ class LoneGrasps:
             self._kept.add(kept)
 
     @functools.cached_property
-    def _things(self) -> HandSimulation:
+    def _scene(self) -> HandSimulation:
         """The body at rest at the origin of a world of its own, and an open hand."""
-        things = engine().hand_scene({BODY: self._body}, self._recipe)
-        things.hand.put_fingers(0.0)
-        things.put(BODY, _frame(self._there))
-        return things
+        scene = engine().hand_scene({BODY: self._body}, self._settings)
+        scene.hand.put_fingers(0.0)
+        scene.put(BODY, _frame(self._there))
+        return scene
 
     @functools.cached_property
-    def _bench(self) -> GripSimulation:
+    def _grips(self) -> GripSimulation:
         """Where the body is grasped as in the worlds."""
-        return engine().grips({BODY: self._body}, self._recipe)
+        return engine().grips({BODY: self._body}, self._settings)
 
     def _look(self, grasp: Grasp) -> GraspVerdict:
-        things = self._things
-        things.hand.put(*self._tool(grasp))
-        return GraspVerdict(things.hand_depth(BODY), things.cover()[BODY])
+        scene = self._scene
+        scene.hand.put(*self._tool(grasp))
+        return GraspVerdict(scene.hand_depth(BODY), scene.cover()[BODY])
 
     def _lift(self, grasp: Grasp) -> bool:
         lies = ((self._body, _frame(self._there)),)
-        return not self._bench.grip(self._tool(grasp), lies, self._recipe.speed).telemetry.ended
+        return not self._grips.grip(self._tool(grasp), lies, self._settings.speed).telemetry.ended
 
     def _tool(self, grasp: Grasp) -> Frame:
         """Where tool0 is for a grasp."""

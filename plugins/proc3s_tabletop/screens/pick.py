@@ -11,55 +11,55 @@ from proc3s_tabletop.screens.batch import BAND, BatchScreening
 from proc3s_tabletop.screens.layout import Bools, Layout, Rows
 from proc3s_tabletop.telemetry import TABLE
 
-RECIPE = ReferenceSettings()
+SETTINGS = ReferenceSettings()
 OPEN = max(GAPS)
 """Distance of the pads of the open hand, m."""
 
 HAND = "gripper"
 
 
-def foresee_pick(foresight: BatchScreening, lie: Layout, step: int, rows: Rows, at: FloatArray) -> None:
+def screen_pick(screening: BatchScreening, layout: Layout, step: int, rows: Rows, at: FloatArray) -> None:
     """Reject picks at points (rows, 3) that are certain to fail; note what the others hold."""
     for check in (_empty, _free_way_down, _free_table):
-        kept = check(foresight, lie, step, rows, at)
+        kept = check(screening, layout, step, rows, at)
         rows, at = rows[kept], at[kept]
-    target = _between(foresight, lie, step, rows, at)
+    target = _between(screening, layout, step, rows, at)
     kept = target >= 0
     rows, at, target = rows[kept], at[kept], target[kept]
-    kept = _free_way_up(foresight, lie, step, rows, target)
-    _hold(lie, rows[kept], at[kept], target[kept])
+    kept = _free_way_up(screening, layout, step, rows, target)
+    _hold(layout, rows[kept], at[kept], target[kept])
 
 
-def _empty(foresight: BatchScreening, lie: Layout, step: int, rows: Rows, at: FloatArray) -> Bools:
+def _empty(screening: BatchScreening, layout: Layout, step: int, rows: Rows, at: FloatArray) -> Bools:
     """Whether the hand has nothing yet."""
-    full: Bools = lie.held[rows] >= 0
-    names = [lie.bodies.names[k] for k in lie.held[rows[full]]]
+    full: Bools = layout.held[rows] >= 0
+    names = [layout.bodies.names[k] for k in layout.held[rows[full]]]
     margins = np.full(len(names), -UNMEASURED)
-    foresight.reject(
+    screening.reject(
         step,
         grasp,
         rows[full],
         margins,
-        lambda i: {"why": f"the hand already holds {foresight.called(names[i])}"},
+        lambda i: {"why": f"the hand already holds {screening.called(names[i])}"},
     )
     return ~full
 
 
-def _free_way_down(foresight: BatchScreening, lie: Layout, step: int, rows: Rows, at: FloatArray) -> Bools:
+def _free_way_down(screening: BatchScreening, layout: Layout, step: int, rows: Rows, at: FloatArray) -> Bools:
     """Whether the open hand may come down beside everything."""
-    depth = lie.met(rows, at, columns(OPEN), RECIPE.hover) - BAND
+    depth = layout.met(rows, at, columns(OPEN), SETTINGS.hover) - BAND
     met: Bools = depth.max(axis=1, initial=-np.inf) > 0
     if not met.any():
         return ~met
     which = depth[met].argmax(axis=1)
-    away = np.linalg.norm(lie.centres[rows[met]] - at[met, None], axis=2)
+    away = np.linalg.norm(layout.centres[rows[met]] - at[met, None], axis=2)
     own, hit = which == away.argmin(axis=1), rows[met]
-    margins, names = -depth[met].max(axis=1), [lie.bodies.names[k] for k in which]
-    wide = _too_wide(lie, hit, at[met])[which, np.arange(len(hit))]
+    margins, names = -depth[met].max(axis=1), [layout.bodies.names[k] for k in which]
+    wide = _too_wide(layout, hit, at[met])[which, np.arange(len(hit))]
 
     def bad_grasp(i: int) -> dict[str, str]:
         k = np.flatnonzero(own)[i]
-        what = foresight.called(names[k])
+        what = screening.called(names[k])
         return {
             "why": f"{what} {TOO_WIDE}"
             if wide[k]
@@ -68,116 +68,116 @@ def _free_way_down(foresight: BatchScreening, lie: Layout, step: int, rows: Rows
 
     def contact(i: int) -> dict[str, str]:
         name = [n for n, mine in zip(names, own, strict=True) if not mine][i]
-        return touching(foresight, foresight.called(HAND), name, "approach")
+        return touching(screening, screening.called(HAND), name, "approach")
 
-    foresight.reject(step, grasp, hit[own], margins[own], bad_grasp)
-    foresight.reject(step, collision, hit[~own], margins[~own], contact)
+    screening.reject(step, grasp, hit[own], margins[own], bad_grasp)
+    screening.reject(step, collision, hit[~own], margins[~own], contact)
     return ~met
 
 
-def _free_table(foresight: BatchScreening, lie: Layout, step: int, rows: Rows, at: FloatArray) -> Bools:
+def _free_table(screening: BatchScreening, layout: Layout, step: int, rows: Rows, at: FloatArray) -> Bools:
     """Whether the tips of the open hand may stay above the table."""
     height = at[:, 2] + columns(OPEN)[:, 3].min() + BAND
     low: Bools = height < 0
-    foresight.reject(
+    screening.reject(
         step,
         collision,
         rows[low],
         height[low],
-        lambda i: touching(foresight, foresight.called(HAND), TABLE, "approach"),
+        lambda i: touching(screening, screening.called(HAND), TABLE, "approach"),
     )
     return ~low
 
 
-def _too_wide(lie: Layout, rows: Rows, at: FloatArray) -> Bools:
+def _too_wide(layout: Layout, rows: Rows, at: FloatArray) -> Bools:
     """Which bodies are too wide for the hand at points (rows, 3): shape (n, rows)."""
-    count = len(lie.bodies.names)
-    found = [lie.bodies.too_wide(k, lie.centres[rows, k], at) for k in range(count)]
+    count = len(layout.bodies.names)
+    found = [layout.bodies.too_wide(k, layout.centres[rows, k], at) for k in range(count)]
     return np.array(found, bool).reshape(count, len(rows))
 
 
-def touching(foresight: BatchScreening, body: str, other: str, stage: str) -> dict[str, str]:
+def touching(screening: BatchScreening, body: str, other: str, stage: str) -> dict[str, str]:
     """The details of a collision."""
-    return {"body": body, "other": foresight.called(other), "when": COLLISIONS[stage]}
+    return {"body": body, "other": screening.called(other), "when": COLLISIONS[stage]}
 
 
-def _between(foresight: BatchScreening, lie: Layout, step: int, rows: Rows, at: FloatArray) -> Rows:
+def _between(screening: BatchScreening, layout: Layout, step: int, rows: Rows, at: FloatArray) -> Rows:
     """The number of the body between the fingers, shape (rows,); -1 where the plan is looked at no more."""
-    spare = BAND + lie.slack[rows]
-    most, likely = _cover(lie, rows, at, spare), _cover(lie, rows, at, np.zeros_like(spare))
-    least = RECIPE.min_cover
+    spare = BAND + layout.slack[rows]
+    most, likely = _cover(layout, rows, at, spare), _cover(layout, rows, at, np.zeros_like(spare))
+    least = SETTINGS.min_cover
     poor = most.max(axis=1, initial=0.0) < least
-    _reject_grasps(foresight, lie, step, rows[poor], at[poor], most[poor])
+    _reject_grasps(screening, layout, step, rows[poor], at[poor], most[poor])
     target = likely.argmax(axis=1)
     index = np.arange(len(rows))
     best = likely[index, target]
     most[index, target] = 0.0
     sure = ~poor & (best >= least) & (most.max(axis=1, initial=0.0) < best)
-    foresight.leave(rows[~sure])
+    screening.leave(rows[~sure])
     return np.where(sure, target, -1)
 
 
-def _cover(lie: Layout, rows: Rows, at: FloatArray, spare: FloatArray) -> FloatArray:
+def _cover(layout: Layout, rows: Rows, at: FloatArray, spare: FloatArray) -> FloatArray:
     """The share of the grid of rays between the pads that meets the box around every body, shape (rows, n);
     `spare` (rows, n) widens the boxes."""
-    away = np.abs(lie.centres[rows] - at[:, None])
-    signed = lie.centres[rows] - at[:, None]
-    half = lie.bodies.outer + spare[..., None]
-    across = np.abs(signed[..., 0, None] - RECIPE.cover_across) <= half[..., 0, None]
-    along = np.abs(signed[..., 2, None] + RECIPE.cover_along) <= half[..., 2, None]
+    away = np.abs(layout.centres[rows] - at[:, None])
+    signed = layout.centres[rows] - at[:, None]
+    half = layout.bodies.outer + spare[..., None]
+    across = np.abs(signed[..., 0, None] - SETTINGS.cover_across) <= half[..., 0, None]
+    along = np.abs(signed[..., 2, None] + SETTINGS.cover_along) <= half[..., 2, None]
     inside = away[..., 1] <= half[..., 1] + OPEN / 2 * INSIDE
     share: FloatArray = across.mean(axis=2) * along.mean(axis=2) * inside
     return share
 
 
 def _reject_grasps(
-    foresight: BatchScreening, lie: Layout, step: int, rows: Rows, at: FloatArray, cover: FloatArray
+    screening: BatchScreening, layout: Layout, step: int, rows: Rows, at: FloatArray, cover: FloatArray
 ) -> None:
     """Too little between the fingers, or nothing at all."""
-    away = np.linalg.norm(lie.centres[rows] - at[:, None], axis=2)
-    names, least = lie.bodies.names, RECIPE.min_cover * PAD_WIDTH
-    best, wide = cover.max(axis=1, initial=0.0), _too_wide(lie, rows, at)
-    margins = np.where(best > 0, (best - RECIPE.min_cover) * PAD_WIDTH, -away.min(axis=1, initial=least))
+    away = np.linalg.norm(layout.centres[rows] - at[:, None], axis=2)
+    names, least = layout.bodies.names, SETTINGS.min_cover * PAD_WIDTH
+    best, wide = cover.max(axis=1, initial=0.0), _too_wide(layout, rows, at)
+    margins = np.where(best > 0, (best - SETTINGS.min_cover) * PAD_WIDTH, -away.min(axis=1, initial=least))
     margins = np.minimum(margins, -UNMEASURED)
 
     def why(i: int) -> dict[str, str]:
         if wide[:, i].any():
-            return {"why": f"{foresight.called(names[int(wide[:, i].argmax())])} {TOO_WIDE}"}
+            return {"why": f"{screening.called(names[int(wide[:, i].argmax())])} {TOO_WIDE}"}
         if best[i] > 0:
-            some = foresight.called(names[int(cover[i].argmax())])
+            some = screening.called(names[int(cover[i].argmax())])
             return {"why": f"the fingers get too little of {some} between them"}
-        hint = f"; the nearest object is {foresight.called(names[int(away[i].argmin())])}" if names else ""
+        hint = f"; the nearest object is {screening.called(names[int(away[i].argmin())])}" if names else ""
         return {"why": f"nothing is between the fingers{hint}"}
 
-    foresight.reject(step, grasp, rows, margins, why)
+    screening.reject(step, grasp, rows, margins, why)
 
 
-def _free_way_up(foresight: BatchScreening, lie: Layout, step: int, rows: Rows, target: Rows) -> Bools:
+def _free_way_up(screening: BatchScreening, layout: Layout, step: int, rows: Rows, target: Rows) -> Bools:
     """Whether nothing lies above what is lifted."""
-    where = lie.centres[rows, target]
-    depth = lie.beside(rows, target, where, lie.bodies.inner) - BAND
-    depth -= lie.slack[rows] + lie.slack[rows, target][:, None]
-    bottoms = lie.centres[rows, :, 2] - lie.bodies.outer[:, 2]
-    top = (where[:, 2] + lie.bodies.outer[target, 2])[:, None]
-    depth[(bottoms < top - 2 * BAND) | (bottoms > top + RECIPE.hover - RECIPE.lift_off)] = -np.inf
+    where = layout.centres[rows, target]
+    depth = layout.beside(rows, target, where, layout.bodies.inner) - BAND
+    depth -= layout.slack[rows] + layout.slack[rows, target][:, None]
+    bottoms = layout.centres[rows, :, 2] - layout.bodies.outer[:, 2]
+    top = (where[:, 2] + layout.bodies.outer[target, 2])[:, None]
+    depth[(bottoms < top - 2 * BAND) | (bottoms > top + SETTINGS.hover - SETTINGS.lift_off)] = -np.inf
     buried: Bools = depth.max(axis=1, initial=-np.inf) > 0
     above = depth[buried].argmax(axis=1)
-    names, own = lie.bodies.names, target[buried]
-    foresight.reject(
+    names, own = layout.bodies.names, target[buried]
+    screening.reject(
         step,
         collision,
         rows[buried],
         -depth[buried].max(axis=1, initial=0.0),
         lambda i: touching(
-            foresight, f"{foresight.called(names[own[i]])} in the hand", names[above[i]], "carry"
+            screening, f"{screening.called(names[own[i]])} in the hand", names[above[i]], "carry"
         ),
     )
     return ~buried
 
 
-def _hold(lie: Layout, rows: Rows, at: FloatArray, target: Rows) -> None:
+def _hold(layout: Layout, rows: Rows, at: FloatArray, target: Rows) -> None:
     """The fingers centre what they close on."""
-    lie.held[rows] = target
-    lie.offset[rows] = lie.centres[rows, target] - at
-    lie.offset[rows, 1] = 0.0
-    lie.slack[rows, target] = np.where(lie.bodies.flat[target], lie.slack[rows, target], np.inf)
+    layout.held[rows] = target
+    layout.offset[rows] = layout.centres[rows, target] - at
+    layout.offset[rows, 1] = 0.0
+    layout.slack[rows, target] = np.where(layout.bodies.flat[target], layout.slack[rows, target], np.inf)

@@ -13,7 +13,7 @@ from proc3s_tabletop.screens.layout import Bools, Layout, Rows
 from proc3s_tabletop.screens.pick import HAND, touching
 from proc3s_tabletop.telemetry import TABLE
 
-RECIPE = ReferenceSettings()
+SETTINGS = ReferenceSettings()
 PLACED = 0.0003
 """How far from where it was to be set down an object may stand, m (measured: less)."""
 CAUGHT = 0.012
@@ -49,51 +49,51 @@ class Descent:
         return Descent(*(values[kept] for values in vars(self).values()))
 
 
-def foresee_place(foresight: BatchScreening, lie: Layout, step: int, rows: Rows, at: FloatArray) -> None:
+def screen_place(screening: BatchScreening, layout: Layout, step: int, rows: Rows, at: FloatArray) -> None:
     """Reject places at points (rows, 3) that are certain to fail; note where the others' objects stand."""
     for check in (_full, _within_bounds):
-        kept = check(foresight, lie, step, rows, at)
+        kept = check(screening, layout, step, rows, at)
         rows, at = rows[kept], at[kept]
-    descent = _descent(lie, rows, at)
+    descent = _descent(layout, rows, at)
     for condition in (_not_too_high, _clear_of_hand, _supported, _standing):
-        descent = descent.only(condition(foresight, lie, step, descent))
-    _stand(lie, descent)
+        descent = descent.only(condition(screening, layout, step, descent))
+    _stand(layout, descent)
 
 
-def _full(foresight: BatchScreening, lie: Layout, step: int, rows: Rows, at: FloatArray) -> Bools:
+def _full(screening: BatchScreening, layout: Layout, step: int, rows: Rows, at: FloatArray) -> Bools:
     """Whether there is something in the hand; what is unknown of it is left to the world."""
-    empty: Bools = lie.held[rows] < 0
+    empty: Bools = layout.held[rows] < 0
     margins = np.full(int(empty.sum()), -UNMEASURED)
     why = {"why": "there is nothing in the hand to set down"}
-    foresight.reject(step, placement, rows[empty], margins, lambda i: why)
-    unknown = ~empty & ~np.isfinite(lie.slack[rows, lie.held[rows]])
-    foresight.leave(rows[unknown])
+    screening.reject(step, placement, rows[empty], margins, lambda i: why)
+    unknown = ~empty & ~np.isfinite(layout.slack[rows, layout.held[rows]])
+    screening.leave(rows[unknown])
     kept: Bools = ~empty & ~unknown
     return kept
 
 
-def _within_bounds(foresight: BatchScreening, lie: Layout, step: int, rows: Rows, at: FloatArray) -> Bools:
+def _within_bounds(screening: BatchScreening, layout: Layout, step: int, rows: Rows, at: FloatArray) -> Bools:
     """Whether the commanded point lies above the table."""
     low, high = np.array(TABLE_BOUNDS).T
     inside = np.minimum(at[:, :2] - low, high - at[:, :2]).min(axis=1)
     outside: Bools = inside < 0
     why = {"why": "the commanded point lies outside the bounds of the table"}
-    foresight.reject(step, placement, rows[outside], inside[outside], lambda i: why)
+    screening.reject(step, placement, rows[outside], inside[outside], lambda i: why)
     return ~outside
 
 
-def _descent(lie: Layout, rows: Rows, at: FloatArray) -> Descent:
-    which = lie.held[rows]
-    goal = at + lie.offset[rows]
-    spare = BAND + lie.slack[rows] + lie.slack[rows, which][:, None]
-    under = lie.beside(rows, which, goal, lie.bodies.inner) - spare
-    maybe = lie.beside(rows, which, goal, lie.bodies.outer) + spare
-    return Descent(rows, at, which, goal, under, maybe, lie.tops(rows, which, goal, spare))
+def _descent(layout: Layout, rows: Rows, at: FloatArray) -> Descent:
+    which = layout.held[rows]
+    goal = at + layout.offset[rows]
+    spare = BAND + layout.slack[rows] + layout.slack[rows, which][:, None]
+    under = layout.beside(rows, which, goal, layout.bodies.inner) - spare
+    maybe = layout.beside(rows, which, goal, layout.bodies.outer) + spare
+    return Descent(rows, at, which, goal, under, maybe, layout.tops(rows, which, goal, spare))
 
 
-def _bottom(lie: Layout, descent: Descent) -> FloatArray:
+def _bottom(layout: Layout, descent: Descent) -> FloatArray:
     """Height of their bottoms at the commanded z."""
-    bottom: FloatArray = descent.goal[:, 2] - lie.bodies.outer[descent.which, 2]
+    bottom: FloatArray = descent.goal[:, 2] - layout.bodies.outer[descent.which, 2]
     return bottom
 
 
@@ -104,98 +104,98 @@ def _highest(descent: Descent, depth: FloatArray) -> FloatArray:
     return highest
 
 
-def _not_too_high(foresight: BatchScreening, lie: Layout, step: int, descent: Descent) -> Bools:
+def _not_too_high(screening: BatchScreening, layout: Layout, step: int, descent: Descent) -> Bools:
     """Whether nothing stands in the way well above the commanded z."""
-    limit = foresight.args(collision).get("highest", np.inf)
+    limit = screening.args(collision).get("highest", np.inf)
     tops = np.where(descent.under > 0, descent.tops, -np.inf)
-    over = tops.max(axis=1, initial=-np.inf) - _bottom(lie, descent) - limit - BAND
+    over = tops.max(axis=1, initial=-np.inf) - _bottom(layout, descent) - limit - BAND
     blocked: Bools = over > 0
-    names, which = lie.bodies.names, tops[blocked].argmax(axis=1) if blocked.any() else []
+    names, which = layout.bodies.names, tops[blocked].argmax(axis=1) if blocked.any() else []
     own = descent.which[blocked]
 
     def met(i: int) -> dict[str, str]:
-        body = f"{foresight.called(names[own[i]])} in the hand"
+        body = f"{screening.called(names[own[i]])} in the hand"
         when = {"when": "far above the z where it should be set down"}
-        return touching(foresight, body, names[which[i]], "carry") | when
+        return touching(screening, body, names[which[i]], "carry") | when
 
-    foresight.reject(step, collision, descent.rows[blocked], -over[blocked], met)
+    screening.reject(step, collision, descent.rows[blocked], -over[blocked], met)
     return ~blocked
 
 
-def _clear_of_hand(foresight: BatchScreening, lie: Layout, step: int, descent: Descent) -> Bools:
+def _clear_of_hand(screening: BatchScreening, layout: Layout, step: int, descent: Descent) -> Bools:
     """Whether there is room for the fingers around the object, closed and then open."""
     # To stand on what rises above the limit would be no better.
-    limit = foresight.args(collision).get("highest", np.inf)
-    bottom = _bottom(lie, descent)
+    limit = screening.args(collision).get("highest", np.inf)
+    bottom = _bottom(layout, descent)
     low = np.where(descent.tops < (bottom + limit + BAND)[:, None], descent.maybe, -np.inf)
     rise = np.maximum(_highest(descent, low) - bottom, 0.0)
     at = descent.at + np.stack([0 * rise, 0 * rise, rise], axis=1)
     free = np.ones(descent.count, bool)
-    for margin, stage in ((0.0, "descent"), (2 * RECIPE.open_margin, "release")):
+    for margin, stage in ((0.0, "descent"), (2 * SETTINGS.open_margin, "release")):
         for k in np.unique(descent.which[free]):
             mine = np.flatnonzero(free & (descent.which == k))
-            gap = 2 * lie.bodies.outer[k, 1] + margin
-            depth = lie.met(descent.rows[mine], at[mine], columns(gap), RECIPE.hover) - BAND
+            gap = 2 * layout.bodies.outer[k, 1] + margin
+            depth = layout.met(descent.rows[mine], at[mine], columns(gap), SETTINGS.hover) - BAND
             hit = depth.max(axis=1, initial=-np.inf) > 0
             free[mine[hit]] = False
-            _reject_contacts(foresight, lie, step, descent.rows[mine[hit]], depth[hit], stage)
+            _reject_contacts(screening, layout, step, descent.rows[mine[hit]], depth[hit], stage)
     return free
 
 
 def _reject_contacts(
-    foresight: BatchScreening, lie: Layout, step: int, rows: Rows, depth: FloatArray, stage: str
+    screening: BatchScreening, layout: Layout, step: int, rows: Rows, depth: FloatArray, stage: str
 ) -> None:
     """The hand against the body that it meets most."""
     if rows.size:
-        names = [lie.bodies.names[k] for k in depth.argmax(axis=1)]
-        foresight.reject(
+        names = [layout.bodies.names[k] for k in depth.argmax(axis=1)]
+        screening.reject(
             step,
             collision,
             rows,
             -depth.max(axis=1),
-            lambda i: touching(foresight, foresight.called(HAND), names[i], stage),
+            lambda i: touching(screening, screening.called(HAND), names[i], stage),
         )
 
 
-def _supported(foresight: BatchScreening, lie: Layout, step: int, descent: Descent) -> Bools:
+def _supported(screening: BatchScreening, layout: Layout, step: int, descent: Descent) -> Bools:
     """Whether there is something to stand on not far below."""
-    lowest = foresight.args(placement).get("lowest", np.inf)
+    lowest = screening.args(placement).get("lowest", np.inf)
     tops = np.where(descent.maybe > 0, descent.tops, -np.inf)
-    drop = _bottom(lie, descent) - _highest(descent, descent.maybe) - lowest - BAND
+    drop = _bottom(layout, descent) - _highest(descent, descent.maybe) - lowest - BAND
     high: Bools = drop > 0
-    names, own = lie.bodies.names, descent.which[high]
+    names, own = layout.bodies.names, descent.which[high]
     below = np.hstack([np.zeros((len(drop), 1)), tops])[high].argmax(axis=1)
     on = [(TABLE, *names)[k] for k in below]
 
     def why(i: int) -> dict[str, str]:
-        what = foresight.called(names[own[i]])
-        return {"why": f"{what} would be dropped from high above {foresight.called(on[i])}"}
+        what = screening.called(names[own[i]])
+        return {"why": f"{what} would be dropped from high above {screening.called(on[i])}"}
 
-    foresight.reject(step, placement, descent.rows[high], -drop[high], why)
+    screening.reject(step, placement, descent.rows[high], -drop[high], why)
     return ~high
 
 
-def _standing(foresight: BatchScreening, lie: Layout, step: int, descent: Descent) -> Bools:
+def _standing(screening: BatchScreening, layout: Layout, step: int, descent: Descent) -> Bools:
     """Whether the middle may lie above what the object could rest on."""
-    beyond = _beyond(lie, descent) - EDGE
-    beyond[~lie.bodies.flat[descent.which]] = -np.inf
+    beyond = _beyond(layout, descent) - EDGE
+    beyond[~layout.bodies.flat[descent.which]] = -np.inf
     falls: Bools = beyond > 0
-    names, own = lie.bodies.names, descent.which[falls]
+    names, own = layout.bodies.names, descent.which[falls]
 
     def why(i: int) -> dict[str, str]:
-        return {"why": f"{foresight.called(names[own[i]])} does not stay where it is released"}
+        return {"why": f"{screening.called(names[own[i]])} does not stay where it is released"}
 
-    foresight.reject(step, placement, descent.rows[falls], -beyond[falls], why)
+    screening.reject(step, placement, descent.rows[falls], -beyond[falls], why)
     return ~falls
 
 
-def _beyond(lie: Layout, descent: Descent) -> FloatArray:
+def _beyond(layout: Layout, descent: Descent) -> FloatArray:
     """How far the middle lies outside the box around all that the object could rest on, seen from above."""
     rows, goal = descent.rows, descent.goal
     highest = _highest(descent, descent.under)
     carries = (descent.maybe > 0) & (descent.tops > highest[:, None] - CAUGHT)
-    spare = lie.bodies.outer[:, :2] + (lie.slack[rows] + BAND)[..., None]
-    middles = lie.centres[rows, :, :2]
+    spare = layout.bodies.outer[:, :2] + (layout.slack[rows] + BAND)[..., None]
+    middles = layout.centres[rows, :, :2]
     low = np.where(carries[..., None], middles - spare, np.inf).min(axis=1, initial=np.inf)
     high = np.where(carries[..., None], middles + spare, -np.inf).max(axis=1, initial=-np.inf)
     beyond = np.maximum(low - goal[:, :2], goal[:, :2] - high).max(axis=1)
@@ -204,13 +204,13 @@ def _beyond(lie: Layout, descent: Descent) -> FloatArray:
     return outside
 
 
-def _stand(lie: Layout, descent: Descent) -> None:
+def _stand(layout: Layout, descent: Descent) -> None:
     """The objects stand; on what is not flat or not certain to lie below, only a simulation tells where."""
     rows, which = descent.rows, descent.which
     certain, possible = (_highest(descent, depth) for depth in (descent.under, descent.maybe))
-    odd = ((descent.maybe > 0) & ~lie.bodies.flat).any(axis=1) | (certain < possible)
+    odd = ((descent.maybe > 0) & ~layout.bodies.flat).any(axis=1) | (certain < possible)
     goal = descent.goal.copy()
-    goal[:, 2] = possible + lie.bodies.outer[which, 2]
-    lie.centres[rows, which] = goal
-    lie.slack[rows, which] = np.where(odd, np.inf, lie.slack[rows, which] + PLACED)
-    lie.held[rows] = -1
+    goal[:, 2] = possible + layout.bodies.outer[which, 2]
+    layout.centres[rows, which] = goal
+    layout.slack[rows, which] = np.where(odd, np.inf, layout.slack[rows, which] + PLACED)
+    layout.held[rows] = -1

@@ -43,25 +43,25 @@ def on_another(
     if not high:
         return Score(False, "everything lies on the table")
     named = {name: known[o.category] for name, o in objects.items()}
-    things = engine().hand_scene(named, ReferenceSettings())
+    scene = engine().hand_scene(named, ReferenceSettings())
     try:
         before = {name: poses.frame(o.pose) for name, o in objects.items()}
-        _let_go(things, before, seconds)
-        return _first(things, before, high, [*lower], most, objects)
+        _let_go(scene, before, seconds)
+        return _first(scene, before, high, [*lower], most, objects)
     finally:
-        things.close()
+        scene.close()
 
 
-def _let_go(things: HandSimulation, frames: Mapping[str, Frame], seconds: float) -> None:
-    things.hand.put(*ALOFT)
-    things.clear()
-    things.bring_back(frames)
-    things.set_iterations(things.recipe.iterations)
-    things.tick(round(seconds / things.recipe.tick))
+def _let_go(scene: HandSimulation, frames: Mapping[str, Frame], seconds: float) -> None:
+    scene.hand.put(*ALOFT)
+    scene.clear()
+    scene.bring_back(frames)
+    scene.set_iterations(scene.settings.iterations)
+    scene.tick(round(seconds / scene.settings.tick))
 
 
 def _first(
-    things: HandSimulation,
+    scene: HandSimulation,
     before: Mapping[str, Frame],
     high: list[str],
     lower: list[str],
@@ -71,9 +71,9 @@ def _first(
     """The first that rests on another; else what is wrong with each."""
     reasons = []
     for name in high:
-        moved = displacement(name, before[name], things.frame(name))
+        moved = displacement(name, before[name], scene.frame(name))
         way = moved.shift + LEVER * moved.turned
-        touched = things.touched(name)
+        touched = scene.touched(name)
         on = [other for other in lower if other in touched]
         if way > most:
             reasons.append(f"{called(objects, name)} moves by {1000 * way:.0f} mm when it is let go")
