@@ -1,5 +1,6 @@
 """The house keeps its rules, and its picture is that of the code."""
 
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -26,3 +27,22 @@ def test_every_room_says_what_it_is_for_and_the_page_knows_it():
     assert all(architecture.sentence(room) for room in rooms)
     told = ("cli", "api", "plugins", "domain", "planning", "prompts", "llm", "sandbox", "search", "feedback")
     assert all(room in rooms and f"`{room}`" in page for room in told)
+
+
+FOREIGN = re.compile(
+    r"\b(pybullet|pymunk|mujoco|litellm|openai|anthropic|table-?top|drawing|ycb|cap|llm3|ur5e|franka)\b",
+    re.IGNORECASE,
+)
+
+
+def test_the_core_names_no_simulator_vendor_method_or_domain():
+    """Examples in the help of commands do."""
+    core = (ROOT / "src" / "proc3s").rglob("*.py")
+    named = [
+        f"{path}:{number}: {line.strip()}"
+        for path in core
+        if "cli" not in path.parts
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1)
+        if FOREIGN.search(line)
+    ]
+    assert named == []

@@ -47,7 +47,7 @@ def programs(subject: Subject) -> Iterator[Fault]:
     for (task, kind), some in groups.items():
         tried = [_outcome(subject, answer) for answer in reversed(some)]  # later rounds first
         if None not in tried:
-            # what `cap` and `llm3` write is carried out unchecked, too
+            # there are methods whose plans are carried out unchecked, too
             text = f"no bundled {kind} leads to the goal of {task}: {tried[0]}"
             yield Fault(text, str(some[-1].path), error=kind == "sketch")
 

@@ -62,7 +62,7 @@ def _worded(variable: str) -> ChosenLLM:
     name, *options = re.split(r"\s+-L[\s=]*", variable)
     for option in options:
         if not re.match(r"\w+=", option):
-            raise UsageError(f"{VARIABLE} takes options as in `openai/NAME -L key=value`, not {option!r}")
+            raise UsageError(f"{VARIABLE} takes options as in `PROVIDER/MODEL -L key=value`, not {option!r}")
     return ChosenLLM(name, dict(option.split("=", 1) for option in options), VARIABLE)
 
 
