@@ -1,16 +1,13 @@
-"""The constraints of the table-top: what the world measured in an action, as margins with words.
-
-All margins are metres. Sentences name what is involved and leave numbers to the margins, so that the same
-failure reads the same in every sample.
-"""
+"""The constraints of the table-top: what the world measured in an action, as margins in metres."""
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from typing import Any, TypeAlias
 
 from proc3s import Margin, Transition
+from proc3s_tabletop import sentences
+from proc3s_tabletop.robot.hand_profile import WIDEST
 from proc3s_tabletop.robot.settings import LEVER, ReferenceSettings
-from proc3s_tabletop.robot.widths import TOO_WIDE
 from proc3s_tabletop.telemetry import TABLE, Displacement, Telemetry
 
 Step: TypeAlias = Transition[Telemetry]
@@ -20,15 +17,6 @@ PAD_WIDTH = 0.018
 """What the grid of rays between the pads spans, m: turns its share that is met into a distance."""
 UNMEASURED = 1e-3
 """By how much a rule is broken where nothing says by how much, m."""
-
-COLLISIONS = {
-    "approach": "on its way to the grasp",
-    "close": "while it closes",
-    "carry": "on its way",
-    "descent": "on its way down to set the object down",
-    "release": "while it opens and leaves",
-}
-"""The stages that end in contact, and what was going on."""
 
 
 def kinematic(step: Step) -> Margin | None:
@@ -62,12 +50,11 @@ def grasp(step: Step) -> Margin | None:
     if measured.ended:
         return Margin(-_lack(step), {"why": _why_no_grasp(step)})
     if measured.held is None:
-        return Margin(-UNMEASURED, {"why": "the hand comes up empty"})
+        return Margin(-UNMEASURED, {"why": sentences.COMES_UP_EMPTY})
     if measured.wanted not in (None, measured.held):
         other, wanted = thing(step, measured.held), thing(step, str(measured.wanted))
-        return Margin(-UNMEASURED, {"why": f"the fingers close on {other} instead of {wanted}"})
-    why = f"{thing(step, measured.held)} slips in the fingers"
-    return Margin(min(_spare(measured)), {"why": why})
+        return Margin(-UNMEASURED, {"why": sentences.closes_on_other(other, wanted)})
+    return Margin(min(_spare(measured)), {"why": sentences.slips(thing(step, measured.held))})
 
 
 def _spare(measured: Telemetry) -> Iterator[float]:
@@ -84,9 +71,10 @@ def placement(step: Step, moved: float, turned: float, lowest: float) -> Margin 
     measured = step.telemetry
     placing = measured.attempted == "place"
     if placing and measured.target is None and measured.ended in (None, "hand"):
-        return Margin(-UNMEASURED, {"why": "there is nothing in the hand to set down"})
+        return Margin(-UNMEASURED, {"why": sentences.NOTHING_TO_SET_DOWN})
     if placing and measured.ended == "hand":
-        return Margin(-max(UNMEASURED, measured.grasp_apart or 0.0), {"why": _not_held_so(step)})
+        why = sentences.holds_other(*(thing(step, str(name)) for name in (measured.target, measured.wanted)))
+        return Margin(-max(UNMEASURED, measured.grasp_apart or 0.0), {"why": why})
     if measured.ended and measured.ended != "support":
         return None
     height = measured.support_height
@@ -94,7 +82,7 @@ def placement(step: Step, moved: float, turned: float, lowest: float) -> Margin 
     if height is not None:
         found.append(Margin(lowest + height, {"why": _too_high(step)}))
     if measured.at_rest is False:
-        found.append(Margin(-UNMEASURED, {"why": "the objects do not come to rest"}))
+        found.append(Margin(-UNMEASURED, {"why": sentences.RESTLESS}))
     found += [_stays(step, d, moved, turned) for d in measured.displacements or ()]
     least = min(margin.value for margin in found)
     return Margin(least, {"why": ", and ".join(m.details["why"] for m in found if m.value < 0)})
@@ -102,25 +90,17 @@ def placement(step: Step, moved: float, turned: float, lowest: float) -> Margin 
 
 def thing(step: Step, name: str) -> str:
     """A body for people: `object_3 (the red block)`, `the table`, `the gripper`."""
-    return called(getattr(step.before, "objects", {}), name)
-
-
-def called(objects: Mapping[str, Any], name: str) -> str:
-    """The same, of the objects of a state."""
-    if name not in objects:
-        return f"the {name}"
-    return f"{name} (the {f'{objects[name].color} {objects[name].category}'.strip()})"
+    return sentences.called(getattr(step.before, "objects", {}), name)
 
 
 def _contact(step: Step) -> Iterator[Margin]:
     """The contact that ended the action, unless it is the fault of the grasp."""
     measured = step.telemetry
-    if measured.ended not in COLLISIONS or measured.clearance is None or _is_bad_grasp(step):
+    if measured.ended not in sentences.COLLISIONS or measured.clearance is None or _is_bad_grasp(step):
         return
     body, other = measured.clearance.body, measured.clearance.other
-    carried = " in the hand" if body == measured.target else ""
-    details = {"body": thing(step, body) + carried, "other": thing(step, other)}
-    details["when"] = COLLISIONS[measured.ended]
+    what = sentences.in_hand(thing(step, body)) if body == measured.target else thing(step, body)
+    details = sentences.collides(what, thing(step, other), sentences.COLLISIONS[measured.ended])
     yield Margin(min(measured.clearance.distance, -SETTINGS.touch), details)
 
 
@@ -128,17 +108,17 @@ def _squeezed(step: Step) -> Iterator[Margin]:
     """A contact in an action that came to its end: where the arm yields, that does not stop it."""
     clearance = step.telemetry.clearance
     if not step.telemetry.ended and clearance and clearance.distance < -SETTINGS.penetration:
-        details = {"body": thing(step, clearance.body), "other": thing(step, clearance.other)}
-        yield Margin(clearance.distance, {**details, "when": "where the fingers close or open"})
+        body, other = thing(step, clearance.body), thing(step, clearance.other)
+        yield Margin(clearance.distance, sentences.collides(body, other, sentences.SQUEEZED))
 
 
 def _met_too_early(step: Step, highest: float) -> Iterator[Margin]:
     """A support well above the commanded z: a stack that nobody asked for."""
     height, support = step.telemetry.support_height, step.telemetry.support
     if height is not None and support is not None and height > highest:
-        held = thing(step, str(step.telemetry.target))
-        details = {"body": f"{held} in the hand", "other": thing(step, support)}
-        yield Margin(highest - height, {**details, "when": "far above the z where it should be set down"})
+        held = sentences.in_hand(thing(step, str(step.telemetry.target)))
+        details = sentences.collides(held, thing(step, support), sentences.MET_TOO_EARLY)
+        yield Margin(highest - height, details)
 
 
 def _is_bad_grasp(step: Step) -> bool:
@@ -156,22 +136,21 @@ def _why_no_grasp(step: Step) -> str:
     measured = step.telemetry
     meant = _meant(step)[0]
     if measured.ended == "hand":
-        return f"the hand already holds {thing(step, str(measured.held))}"
+        return sentences.holds_already(thing(step, str(measured.held)))
     if measured.too_wide:
-        return f"{thing(step, measured.too_wide)} {TOO_WIDE}"
+        return sentences.too_wide(thing(step, measured.too_wide), WIDEST)
     if measured.ended == "grasp" and not measured.cover:
         if measured.wanted:
-            return f"the fingers miss {thing(step, measured.wanted)}"
-        hint = f"; the nearest object is {thing(step, meant)}" if meant else ""
-        return f"nothing is between the fingers{hint}"
+            return sentences.misses(thing(step, measured.wanted))
+        return sentences.nothing_between(thing(step, meant) if meant else None)
     if measured.ended == "approach":
-        return f"the fingers come down on {thing(step, str(meant))} instead of around it"
+        return sentences.comes_down_on(thing(step, str(meant)))
     what = thing(step, str(measured.target))
     if measured.ended == "grasp":
-        return f"the fingers get too little of {what} between them"
+        return sentences.too_little(what)
     if measured.ended == "close":
-        return f"the fingers do not hold {what} from both sides"
-    return f"{what} slips out of the fingers"
+        return sentences.one_sided(what)
+    return sentences.slips_out(what)
 
 
 def _lack(step: Step) -> float:
@@ -200,35 +179,26 @@ def _meant(step: Step) -> tuple[str | None, float]:
     return name, found[name] if name else PAD_WIDTH
 
 
-def _not_held_so(step: Step) -> str:
-    """Why a place that names an object and a grasp cannot begin."""
-    held, wanted = (thing(step, str(name)) for name in (step.telemetry.target, step.telemetry.wanted))
-    if held != wanted:
-        return f"the hand holds {held}, not {wanted}"
-    return f"the hand holds {held} by another grasp than the place names"
-
-
 def _bounds(step: Step) -> Margin:
     bound = step.telemetry.bounds
     if bound is None:
         return Margin(SETTINGS.near, {"why": ""})
-    what = "the commanded point" if bound.name == "target" else thing(step, bound.name)
-    return Margin(bound.distance, {"why": f"{what} lies outside the bounds of the table"})
+    what = sentences.TARGET if bound.name == "target" else thing(step, bound.name)
+    return Margin(bound.distance, {"why": sentences.out_of_bounds(what)})
 
 
 def _too_high(step: Step) -> str:
     measured = step.telemetry
-    below = thing(step, measured.support or TABLE)
-    return f"{thing(step, str(measured.target))} would be dropped from high above {below}"
+    return sentences.drops(thing(step, str(measured.target)), thing(step, measured.support or TABLE))
 
 
 def _stays(step: Step, d: Displacement, moved: float, turned: float) -> Margin:
     """How much less than allowed an object moved."""
-    what, released = thing(step, d.name), d.name == step.telemetry.target
-    if released:
-        what += " does not stay where it is released"
+    if d.name == step.telemetry.target:
+        says = sentences.does_not_stay
     elif d.name in (step.telemetry.knocked_over or ()):
-        what += " is knocked over"
+        says = sentences.knocked_over
     else:
-        what += " is moved along"
-    return Margin(min(moved - d.shift, (turned - d.turned) * LEVER), {"why": what})
+        says = sentences.moved_along
+    why = says(thing(step, d.name))
+    return Margin(min(moved - d.shift, (turned - d.turned) * LEVER), {"why": why})

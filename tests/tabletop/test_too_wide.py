@@ -10,13 +10,14 @@ from blocks_domain import belief, blocks_domain
 from proc3s import Action, PlanBatch
 from proc3s.domain.margins import check
 from proc3s.domain.world import make_world
+from proc3s_tabletop import sentences
 from proc3s_tabletop.objects.shapes import Bowl, Box, Cylinder, Shape
 from proc3s_tabletop.robot.grasp_frames import top_down
-from proc3s_tabletop.robot.widths import TOO_WIDE, too_wide
+from proc3s_tabletop.robot.widths import too_wide
 from proc3s_tabletop.screens.geometry import geometry
 
 AT = (0.0, -0.5, 0.02)
-SAYS = f"object_0 (the red thing) {TOO_WIDE}"
+SAYS = sentences.too_wide("object_0 (the red thing)", 0.08)
 TURNED = (0.0, 0.0, math.pi / 4)
 
 

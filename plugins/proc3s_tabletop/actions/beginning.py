@@ -5,13 +5,13 @@ from collections.abc import Iterator, Mapping
 from contextlib import closing
 from typing import Any
 
-from proc3s_tabletop.constraints import called
 from proc3s_tabletop.engine.choice import engine
 from proc3s_tabletop.engine.protocol import HandSimulation
 from proc3s_tabletop.engine.values import ALOFT
 from proc3s_tabletop.objects.body import Body
 from proc3s_tabletop.robot.frames import Frame
 from proc3s_tabletop.robot.settings import ReferenceSettings, inside_table
+from proc3s_tabletop.sentences import called, deep_in, out_of_bounds
 from proc3s_tabletop.telemetry import TABLE
 
 SUNK = 0.001
@@ -23,7 +23,7 @@ def flaws_of(
 ) -> list[str]:
     """A sentence for every object, and for every pair, that cannot be where it is."""
     flaws = [
-        f"{called(objects, name)} lies outside the bounds of the table, by {-1000 * inside:.0f} mm"
+        f"{out_of_bounds(called(objects, name))}, by {-1000 * inside:.0f} mm"
         for name, frame in frames.items()
         if (inside := inside_table(*frame.position[:2])) < 0
     ]
@@ -31,8 +31,7 @@ def flaws_of(
         scene.hand.put(*ALOFT)
         scene.bring_back(frames)
         for one, other, depth in _overlaps(scene):
-            what, where = called(objects, one), called(objects, other)
-            flaws.append(f"{what} is {1000 * depth:.0f} mm deep in {where}")
+            flaws.append(deep_in(called(objects, one), called(objects, other), depth))
     return flaws
 
 

@@ -13,8 +13,6 @@ from proc3s_tabletop.robot.settings import ReferenceSettings
 
 Bools: TypeAlias = NDArray[np.bool_]
 
-TOO_WIDE = f"is too wide there for the fingers, which take at most {1000 * WIDEST:.0f} mm"
-"""What is said of a body, by screens and world."""
 SIDE = max(GAPS) / 2
 """From the middle of the open hand to a pad, m."""
 

@@ -8,8 +8,8 @@ import numpy as np
 from proc3s import Domain, FloatArray, PlanBatch, State, Violation, sentence
 from proc3s.domain.plan_batch import Signature
 from proc3s.specs.domain import ConstraintSpec
-from proc3s_tabletop.constraints import called
 from proc3s_tabletop.screens.layout import Rows
+from proc3s_tabletop.sentences import called
 from proc3s_tabletop.skills import pick, pick_object, place, place_object
 
 BAND = 0.001

@@ -6,10 +6,11 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from proc3s import Domain, FloatArray, PlanBatch, State
+from proc3s_tabletop import sentences
 from proc3s_tabletop.catalogue.body_specs import bodies_of, body_of
 from proc3s_tabletop.constraints import PAD_WIDTH, UNMEASURED, grasp
+from proc3s_tabletop.robot.hand_profile import WIDEST
 from proc3s_tabletop.robot.settings import ReferenceSettings
-from proc3s_tabletop.robot.widths import TOO_WIDE
 from proc3s_tabletop.screens.batch import BatchScreening, Verdicts, skill_of
 from proc3s_tabletop.screens.layout import Bools
 from proc3s_tabletop.screens.lone_grasps import LoneGrasps, lone_grasps
@@ -84,19 +85,15 @@ def _misfits(known: LoneGrasps, wanted: FloatArray, what: str) -> Rejected:
     meets: Bools = depth > SETTINGS.penetration + NEAR
     poor: Bools = ~meets & (cover < SETTINGS.min_cover - SPARE)
     margins = np.where(meets, -depth, np.minimum((cover - SETTINGS.min_cover) * PAD_WIDTH, -UNMEASURED))
-    words = (
-        f"the fingers come down on {what} instead of around it",
-        f"the fingers get too little of {what} between them",
-        f"the fingers miss {what}",
-    )
+    words = sentences.comes_down_on(what), sentences.too_little(what), sentences.misses(what)
     whys = [words[0 if m else 1 if share else 2] for m, share in zip(meets, cover, strict=True)]
     bad = np.flatnonzero(meets | poor)
     for i in bad[known.too_wide(wanted[bad])].tolist():
-        whys[i] = f"{what} {TOO_WIDE}"
+        whys[i] = sentences.too_wide(what, WIDEST)
     return meets | poor, margins, whys
 
 
 def _slips(known: LoneGrasps, wanted: FloatArray, what: str) -> Rejected:
     """Grasps that do not hold the body."""
     lost: Bools = known.holds(wanted) < 1
-    return lost, np.full(len(lost), -UNMEASURED), [f"{what} slips out of the fingers"] * len(lost)
+    return lost, np.full(len(lost), -UNMEASURED), [sentences.slips_out(what)] * len(lost)

@@ -152,14 +152,22 @@ class Layout:
 
 def _into_bowl(away: FloatArray, bowl: Bowl, columns: FloatArray) -> FloatArray:
     """How deep the deepest of columns (k, 4) reaches into bowls whose middles are `away` (rows, 3)."""
-    start, stop, width, bottom = columns.T
-    x, y, z = (away[:, k, None] for k in range(3))
-    far = np.hypot(np.abs(x) + width, np.maximum(y - start, stop - y))
-    near = np.hypot(np.maximum(np.abs(x) - width, 0), np.maximum(np.maximum(start - y, y - stop), 0))
+    nearest, furthest = _from_axis(away, columns)
     # What comes down between the foot and the rim meets the wall where it is furthest from the axis.
-    reaches = bowl.height_at(np.minimum(far, bowl.rim_radius)) - bowl.height / 2 + z
-    deepest: FloatArray = np.minimum(reaches - bottom, bowl.rim_radius - near).max(axis=1)
+    wall = bowl.height_at(np.minimum(furthest, bowl.rim_radius)) - bowl.height / 2 + away[:, 2, None]
+    below_wall, within_rim = wall - columns[:, 3], bowl.rim_radius - nearest
+    deepest: FloatArray = np.minimum(below_wall, within_rim).max(axis=1)
     return deepest
+
+
+def _from_axis(away: FloatArray, columns: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """How far columns (k, 4) are, seen from above, from the axis of a bowl that is `away` (rows, 3): where
+    they are nearest, and where they are furthest, each (rows, k), m."""
+    start, stop, width, _ = columns.T
+    x, y = np.abs(away[:, 0, None]), away[:, 1, None]
+    nearest = np.hypot(np.maximum(x - width, 0), np.maximum(np.maximum(start - y, y - stop), 0))
+    furthest = np.hypot(x + width, np.maximum(y - start, stop - y))
+    return nearest, furthest
 
 
 def _deepest(away: FloatArray, half: FloatArray, columns: FloatArray, rise: float) -> FloatArray:

@@ -3,10 +3,10 @@
 import numpy as np
 
 from proc3s import FloatArray
-from proc3s_tabletop.constraints import COLLISIONS, PAD_WIDTH, UNMEASURED, collision, grasp
-from proc3s_tabletop.robot.hand_profile import GAPS, columns
+from proc3s_tabletop import sentences
+from proc3s_tabletop.constraints import PAD_WIDTH, UNMEASURED, collision, grasp
+from proc3s_tabletop.robot.hand_profile import GAPS, WIDEST, columns
 from proc3s_tabletop.robot.settings import INSIDE, ReferenceSettings
-from proc3s_tabletop.robot.widths import TOO_WIDE
 from proc3s_tabletop.screens.batch import BAND, BatchScreening
 from proc3s_tabletop.screens.layout import Bools, Layout, Rows
 from proc3s_tabletop.telemetry import TABLE
@@ -40,7 +40,7 @@ def _empty(screening: BatchScreening, layout: Layout, step: int, rows: Rows, at:
         grasp,
         rows[full],
         margins,
-        lambda i: {"why": f"the hand already holds {screening.called(names[i])}"},
+        lambda i: {"why": sentences.holds_already(screening.called(names[i]))},
     )
     return ~full
 
@@ -49,30 +49,45 @@ def _free_way_down(screening: BatchScreening, layout: Layout, step: int, rows: R
     """Whether the open hand may come down beside everything."""
     depth = layout.met(rows, at, columns(OPEN), SETTINGS.hover) - BAND
     met: Bools = depth.max(axis=1, initial=-np.inf) > 0
-    if not met.any():
-        return ~met
-    which = depth[met].argmax(axis=1)
-    away = np.linalg.norm(layout.centres[rows[met]] - at[met, None], axis=2)
-    own, hit = which == away.argmin(axis=1), rows[met]
-    margins, names = -depth[met].max(axis=1), [layout.bodies.names[k] for k in which]
-    wide = _too_wide(layout, hit, at[met])[which, np.arange(len(hit))]
+    if met.any():
+        _reject_ways_down(screening, layout, step, rows[met], at[met], depth[met])
+    return ~met
 
-    def bad_grasp(i: int) -> dict[str, str]:
-        k = np.flatnonzero(own)[i]
-        what = screening.called(names[k])
-        return {
-            "why": f"{what} {TOO_WIDE}"
-            if wide[k]
-            else f"the fingers come down on {what} instead of around it"
-        }
+
+def _reject_ways_down(
+    screening: BatchScreening, layout: Layout, step: int, rows: Rows, at: FloatArray, depth: FloatArray
+) -> None:
+    """To come down on the body nearest to the point is a bad grasp, on any other a collision."""
+    away = np.linalg.norm(layout.centres[rows] - at[:, None], axis=2)
+    meant: Bools = depth.argmax(axis=1) == away.argmin(axis=1)
+    _reject_on_target(screening, layout, step, rows[meant], at[meant], depth[meant])
+    reject_contacts(screening, layout, step, rows[~meant], depth[~meant], "approach")
+
+
+def _reject_on_target(
+    screening: BatchScreening, layout: Layout, step: int, rows: Rows, at: FloatArray, depth: FloatArray
+) -> None:
+    """Fingers that come down on the body they are to grasp, since they are off, or it is too wide."""
+    target = depth.argmax(axis=1)
+    wide = _too_wide(layout, rows, at)[target, np.arange(len(rows))]
+
+    def why(i: int) -> dict[str, str]:
+        what = screening.called(layout.bodies.names[target[i]])
+        return {"why": sentences.too_wide(what, WIDEST) if wide[i] else sentences.comes_down_on(what)}
+
+    screening.reject(step, grasp, rows, -depth.max(axis=1), why)
+
+
+def reject_contacts(
+    screening: BatchScreening, layout: Layout, step: int, rows: Rows, depth: FloatArray, stage: str
+) -> None:
+    """The hand against the body that it meets most, by depths (rows, n) in m."""
+    names = [layout.bodies.names[k] for k in depth.argmax(axis=1)]
 
     def contact(i: int) -> dict[str, str]:
-        name = [n for n, mine in zip(names, own, strict=True) if not mine][i]
-        return touching(screening, screening.called(HAND), name, "approach")
+        return _touching(screening, screening.called(HAND), names[i], stage)
 
-    screening.reject(step, grasp, hit[own], margins[own], bad_grasp)
-    screening.reject(step, collision, hit[~own], margins[~own], contact)
-    return ~met
+    screening.reject(step, collision, rows, -depth.max(axis=1), contact)
 
 
 def _free_table(screening: BatchScreening, layout: Layout, step: int, rows: Rows, at: FloatArray) -> Bools:
@@ -84,7 +99,7 @@ def _free_table(screening: BatchScreening, layout: Layout, step: int, rows: Rows
         collision,
         rows[low],
         height[low],
-        lambda i: touching(screening, screening.called(HAND), TABLE, "approach"),
+        lambda i: _touching(screening, screening.called(HAND), TABLE, "approach"),
     )
     return ~low
 
@@ -96,9 +111,9 @@ def _too_wide(layout: Layout, rows: Rows, at: FloatArray) -> Bools:
     return np.array(found, bool).reshape(count, len(rows))
 
 
-def touching(screening: BatchScreening, body: str, other: str, stage: str) -> dict[str, str]:
+def _touching(screening: BatchScreening, body: str, other: str, stage: str) -> dict[str, str]:
     """The details of a collision."""
-    return {"body": body, "other": screening.called(other), "when": COLLISIONS[stage]}
+    return sentences.collides(body, screening.called(other), sentences.COLLISIONS[stage])
 
 
 def _between(screening: BatchScreening, layout: Layout, step: int, rows: Rows, at: FloatArray) -> Rows:
@@ -142,12 +157,10 @@ def _reject_grasps(
 
     def why(i: int) -> dict[str, str]:
         if wide[:, i].any():
-            return {"why": f"{screening.called(names[int(wide[:, i].argmax())])} {TOO_WIDE}"}
+            return {"why": sentences.too_wide(screening.called(names[int(wide[:, i].argmax())]), WIDEST)}
         if best[i] > 0:
-            some = screening.called(names[int(cover[i].argmax())])
-            return {"why": f"the fingers get too little of {some} between them"}
-        hint = f"; the nearest object is {screening.called(names[int(away[i].argmin())])}" if names else ""
-        return {"why": f"nothing is between the fingers{hint}"}
+            return {"why": sentences.too_little(screening.called(names[int(cover[i].argmax())]))}
+        return {"why": sentences.nothing_between(screening.called(names[int(away[i].argmin())]))}
 
     screening.reject(step, grasp, rows, margins, why)
 
@@ -168,8 +181,8 @@ def _free_way_up(screening: BatchScreening, layout: Layout, step: int, rows: Row
         collision,
         rows[buried],
         -depth[buried].max(axis=1, initial=0.0),
-        lambda i: touching(
-            screening, f"{screening.called(names[own[i]])} in the hand", names[above[i]], "carry"
+        lambda i: _touching(
+            screening, sentences.in_hand(screening.called(names[own[i]])), names[above[i]], "carry"
         ),
     )
     return ~buried

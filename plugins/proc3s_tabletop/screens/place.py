@@ -5,12 +5,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from proc3s import FloatArray
+from proc3s_tabletop import sentences
 from proc3s_tabletop.constraints import UNMEASURED, collision, placement
 from proc3s_tabletop.robot.hand_profile import columns
 from proc3s_tabletop.robot.settings import TABLE_BOUNDS, ReferenceSettings
 from proc3s_tabletop.screens.batch import BAND, BatchScreening
 from proc3s_tabletop.screens.layout import Bools, Layout, Rows
-from proc3s_tabletop.screens.pick import HAND, touching
+from proc3s_tabletop.screens.pick import reject_contacts
 from proc3s_tabletop.telemetry import TABLE
 
 SETTINGS = ReferenceSettings()
@@ -64,7 +65,7 @@ def _full(screening: BatchScreening, layout: Layout, step: int, rows: Rows, at: 
     """Whether there is something in the hand; what is unknown of it is left to the world."""
     empty: Bools = layout.held[rows] < 0
     margins = np.full(int(empty.sum()), -UNMEASURED)
-    why = {"why": "there is nothing in the hand to set down"}
+    why = {"why": sentences.NOTHING_TO_SET_DOWN}
     screening.reject(step, placement, rows[empty], margins, lambda i: why)
     unknown = ~empty & ~np.isfinite(layout.slack[rows, layout.held[rows]])
     screening.leave(rows[unknown])
@@ -77,7 +78,7 @@ def _within_bounds(screening: BatchScreening, layout: Layout, step: int, rows: R
     low, high = np.array(TABLE_BOUNDS).T
     inside = np.minimum(at[:, :2] - low, high - at[:, :2]).min(axis=1)
     outside: Bools = inside < 0
-    why = {"why": "the commanded point lies outside the bounds of the table"}
+    why = {"why": sentences.out_of_bounds(sentences.TARGET)}
     screening.reject(step, placement, rows[outside], inside[outside], lambda i: why)
     return ~outside
 
@@ -114,9 +115,8 @@ def _not_too_high(screening: BatchScreening, layout: Layout, step: int, descent:
     own = descent.which[blocked]
 
     def met(i: int) -> dict[str, str]:
-        body = f"{screening.called(names[own[i]])} in the hand"
-        when = {"when": "far above the z where it should be set down"}
-        return touching(screening, body, names[which[i]], "carry") | when
+        held, other = screening.called(names[own[i]]), screening.called(names[which[i]])
+        return sentences.collides(sentences.in_hand(held), other, sentences.MET_TOO_EARLY)
 
     screening.reject(step, collision, descent.rows[blocked], -over[blocked], met)
     return ~blocked
@@ -138,23 +138,8 @@ def _clear_of_hand(screening: BatchScreening, layout: Layout, step: int, descent
             depth = layout.met(descent.rows[mine], at[mine], columns(gap), SETTINGS.hover) - BAND
             hit = depth.max(axis=1, initial=-np.inf) > 0
             free[mine[hit]] = False
-            _reject_contacts(screening, layout, step, descent.rows[mine[hit]], depth[hit], stage)
+            reject_contacts(screening, layout, step, descent.rows[mine[hit]], depth[hit], stage)
     return free
-
-
-def _reject_contacts(
-    screening: BatchScreening, layout: Layout, step: int, rows: Rows, depth: FloatArray, stage: str
-) -> None:
-    """The hand against the body that it meets most."""
-    if rows.size:
-        names = [layout.bodies.names[k] for k in depth.argmax(axis=1)]
-        screening.reject(
-            step,
-            collision,
-            rows,
-            -depth.max(axis=1),
-            lambda i: touching(screening, screening.called(HAND), names[i], stage),
-        )
 
 
 def _supported(screening: BatchScreening, layout: Layout, step: int, descent: Descent) -> Bools:
@@ -168,8 +153,7 @@ def _supported(screening: BatchScreening, layout: Layout, step: int, descent: De
     on = [(TABLE, *names)[k] for k in below]
 
     def why(i: int) -> dict[str, str]:
-        what = screening.called(names[own[i]])
-        return {"why": f"{what} would be dropped from high above {screening.called(on[i])}"}
+        return {"why": sentences.drops(screening.called(names[own[i]]), screening.called(on[i]))}
 
     screening.reject(step, placement, descent.rows[high], -drop[high], why)
     return ~high
@@ -183,7 +167,7 @@ def _standing(screening: BatchScreening, layout: Layout, step: int, descent: Des
     names, own = layout.bodies.names, descent.which[falls]
 
     def why(i: int) -> dict[str, str]:
-        return {"why": f"{screening.called(names[own[i]])} does not stay where it is released"}
+        return {"why": sentences.does_not_stay(screening.called(names[own[i]]))}
 
     screening.reject(step, placement, descent.rows[falls], -beyond[falls], why)
     return ~falls

@@ -14,7 +14,9 @@ import numpy as np
 
 from proc3s import Plan, Score
 from proc3s_tabletop.catalogue.body_specs import bodies_of
+from proc3s_tabletop.objects.body import Body
 from proc3s_tabletop.objects.extents import Extent, covers, extent, gap, strip
+from proc3s_tabletop.sentences import called
 from proc3s_tabletop.tasks.selection import select, selector
 
 Choice = Mapping[str, Any]
@@ -43,7 +45,10 @@ class FinalTable:
     def __init__(self, state: Any, bodies: Mapping[str, Any] | None) -> None:
         known = bodies_of(bodies)
         self._objects: Mapping[str, Any] = state.objects
-        self._solids = {name: _solid(name, o, known[o.category]) for name, o in state.objects.items()}
+        self._solids = {
+            name: _solid(called(state.objects, name), o.pose, known[o.category])
+            for name, o in state.objects.items()
+        }
 
     def chosen(self, what: Choice | None, where: str) -> list[Solid]:
         """The objects that are meant. Raises SpecError on a choice that cannot be read."""
@@ -236,9 +241,7 @@ def still(
     return _verdict(chosen, selector(what, "still.what"), "at rest on something", rests, count)
 
 
-def _solid(name: str, thing: Any, body: Any) -> Solid:
-    pose = thing.pose
-    says = f"{name} (the {f'{thing.color} {thing.category}'.strip()})"
+def _solid(says: str, pose: Any, body: Body) -> Solid:
     return Solid(says, pose.x, pose.y, pose.z, extent(body, pose))
 
 

@@ -5,7 +5,6 @@ from typing import Any
 
 from proc3s import Plan, Score
 from proc3s_tabletop.catalogue.body_specs import bodies_of
-from proc3s_tabletop.constraints import called
 from proc3s_tabletop.engine.choice import engine
 from proc3s_tabletop.engine.protocol import HandSimulation
 from proc3s_tabletop.engine.values import ALOFT
@@ -13,6 +12,7 @@ from proc3s_tabletop.objects.extents import extent
 from proc3s_tabletop.robot import frames as poses
 from proc3s_tabletop.robot.frames import Frame
 from proc3s_tabletop.robot.settings import LEVER, ReferenceSettings
+from proc3s_tabletop.sentences import called
 from proc3s_tabletop.tasks.selection import select, selector
 from proc3s_tabletop.telemetry import TABLE, displacement
 
