@@ -1,9 +1,5 @@
 """The constants of the reference world, with their units and where they come from."""
 
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    pass
 import math
 from dataclasses import dataclass
 

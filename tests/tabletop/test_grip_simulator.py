@@ -1,4 +1,4 @@
-"""What happens on the workbench depends on how things lie there, and on nothing else."""
+"""What comes of a grip or a fall depends on how things lie there, and on nothing else."""
 
 import math
 
@@ -82,7 +82,7 @@ def test_what_is_asked_again_is_not_simulated_again(simulator, ticks):
     assert len(ticks) > spent
 
 
-def test_a_used_bench_gives_what_a_fresh_one_gives(simulator):
+def test_a_used_simulator_gives_what_a_fresh_one_gives(simulator):
     questions = [on_top(0.0, -0.5, off) for off in (0.0, 0.005, 0.017, 0.03)]
     grips = [(tool(0.0, -0.5, 0.02), ((BLOCK, Frame((dx, -0.5, 0.02), LEVEL)),), 1.0) for dx in (0.0, 0.008)]
 
