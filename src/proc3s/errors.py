@@ -6,11 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from difflib import get_close_matches
-from typing import TYPE_CHECKING, ClassVar, Literal
-
-if TYPE_CHECKING:
-    pass
-
+from typing import ClassVar, Literal
 
 Stopped = Literal["usage", "llm", "budget", "pending", "interrupted", "time"]
 

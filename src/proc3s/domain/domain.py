@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, get_type_hints
+from typing import Any, get_type_hints
 
 import numpy as np
 from pydantic import TypeAdapter, ValidationError
@@ -17,9 +17,6 @@ from proc3s.specs.base import Target
 from proc3s.specs.domain import DomainSpec, ParamSpec, SamplerSpec, ScreenSpec, TaskSpec
 from proc3s.specs.fitting import misfits, unfit_constraint
 from proc3s.specs.yaml_reader import Document
-
-if TYPE_CHECKING:
-    pass
 
 
 @dataclass(frozen=True)

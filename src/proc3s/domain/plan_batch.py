@@ -4,13 +4,10 @@ import itertools
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-if TYPE_CHECKING:
-    pass
 from proc3s.domain.values import Action, FloatArray, Plan, Pose, Value
 
 WIDTH: Mapping[str, int] = {"float": 1, "int": 1, "str": 1, "object": 1, "point": 3, "pose": 6, "grasp": 6}

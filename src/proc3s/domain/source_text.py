@@ -2,10 +2,7 @@
 
 import dataclasses
 import math
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    pass
+from typing import Any
 
 
 def source_text(value: Any, decimals: int | None = None) -> str:

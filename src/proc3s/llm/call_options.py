@@ -1,14 +1,10 @@
 """Options that every LLM call takes, whatever the backend."""
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
 
 from proc3s.llm.types import Effort, Price, Sampling
-
-if TYPE_CHECKING:
-    pass
-
 
 _PATIENCE = 60.0
 

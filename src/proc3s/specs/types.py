@@ -1,11 +1,6 @@
 """Type names of fields: scalars, lists and dictionaries of types."""
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    pass
-
 
 SCALARS: Mapping[str, type] = {"float": float, "int": int, "str": str, "bool": bool}
 """The types of fields that are no types of the domain."""
