@@ -29,7 +29,11 @@ import reference
 
 ROOT = Path(__file__).parents[2]
 HOOKS = [name for name, value in vars(hookspecs).items() if hasattr(value, "proc3s_spec")]
-SPECS = {value for value in vars(specs).values() if inspect.isclass(value) and issubclass(value, specs.Spec)}
+SPECS = {
+    spec
+    for name in specs.__all__
+    if inspect.isclass(spec := getattr(specs, name)) and issubclass(spec, specs.Spec)
+}
 SPECS = sorted((SPECS | set(KINDS.values())) - {specs.Spec}, key=lambda spec: spec.__name__)
 EVENTS = [
     value

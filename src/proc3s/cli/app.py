@@ -8,6 +8,7 @@ from typing import Any
 
 import typer
 
+from proc3s.cli.arguments import with_options
 from proc3s.cli.commands import (
     bench,
     check,
@@ -86,9 +87,9 @@ _COMMANDS: dict[str, Callable[..., Any]] = {
     "doctor": doctor.doctor,
 }
 for _name, _command in _COMMANDS.items():
-    app.command(name=_name)(_guarded(_command))
+    app.command(name=_name)(_guarded(with_options(_command)))
 for _name, _command in {"domain": new.domain, "solver": new.solver, "llm": new.llm}.items():
-    new.new.command(name=_name)(_guarded(_command))
+    new.new.command(name=_name)(_guarded(with_options(_command)))
 app.add_typer(new.new, name="new", no_args_is_help=True)
 
 

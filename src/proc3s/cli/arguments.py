@@ -1,97 +1,100 @@
-"""Arguments and options that several commands share."""
+"""Arguments and options of commands; those that fill `RunOptions` are made from its fields."""
 
+import functools
+import inspect
+import types
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, TypeAlias
+from typing import Annotated, Any, TypeAlias, get_args, get_origin
 
 import typer
+from annotated_types import Ge
+
+from proc3s.planning.options import Option, all_options
+
+OPTIONS = all_options()
 
 Task: TypeAlias = Annotated[str, typer.Argument(metavar="TASK", help="domain/task, e.g. drawing/star")]
-Llm: TypeAlias = Annotated[
-    str | None,
-    typer.Option(
-        "--llm",
-        help="PROVIDER/MODEL, replay[:PATH], manual:DIR or stub:FILE  "
-        "[default: PROC3S_LLM, proc3s.toml, replay]",
-    ),
-]
-Candidates: TypeAlias = Annotated[
-    int | None, typer.Option("--candidates", min=1, help="programs asked for at once; they race")
-]
-LlmJobs: TypeAlias = Annotated[
-    int | None, typer.Option("--llm-jobs", min=1, help="calls to the LLM in flight  [default: --candidates]")
-]
-Record: TypeAlias = Annotated[
-    Path | None, typer.Option("--record", help="cassette (.jsonl or folder) that keeps every answer")
-]
-MaxCost: TypeAlias = Annotated[
-    float | None, typer.Option("--max-cost", help="US dollars that live answers may cost")
-]
-MaxTokens: TypeAlias = Annotated[
-    int | None, typer.Option("--max-tokens", min=1, help="tokens that live prompts and answers may take")
-]
-MaxCalls: TypeAlias = Annotated[
-    int | None, typer.Option("--max-calls", min=1, help="live calls that may be made")
-]
 Resume: TypeAlias = Annotated[
     Path | None,
     typer.Option("--resume", metavar="RUN", help="go on with a run that was broken off"),
 ]
-Method: TypeAlias = Annotated[str | None, typer.Option("--method", help="see `proc3s list methods`")]
-Solver: TypeAlias = Annotated[str | None, typer.Option("--solver", help="see `proc3s list solvers`")]
-Preset: TypeAlias = Annotated[
-    str | None, typer.Option("--preset", help="what method and command line leave open  [default: best]")
-]
-ExecutorName: TypeAlias = Annotated[
-    str | None, typer.Option("--executor", help="see `proc3s list executors`")
-]
-Seed: TypeAlias = Annotated[int | None, typer.Option("--seed", min=0, help="scene and random draws")]
-Goal: TypeAlias = Annotated[
-    str | None, typer.Option("--goal", help="an instruction of your own (nobody judges it)")
-]
-Samples: TypeAlias = Annotated[int | None, typer.Option("--samples", min=1, help="samples per round")]
-Feedback: TypeAlias = Annotated[int | None, typer.Option("--feedback", min=0, help="feedback rounds")]
 Out: TypeAlias = Annotated[Path | None, typer.Option("--out", help="run folder  [default: runs/…]")]
 Json: TypeAlias = Annotated[bool, typer.Option("--json", help="one JSON document on stdout, nothing else")]
-TemplateDir: TypeAlias = Annotated[
-    Path | None, typer.Option("--template-dir", help="folder of templates that go before all others")
-]
 Plugins: TypeAlias = Annotated[
-    list[Path] | None,
-    typer.Option("--plugin", help="a plugin in a loose file, Python or a domain.yaml (repeatable)"),
+    list[Path] | None, typer.Option("--plugin", help=OPTIONS["plugins"].field.description)
 ]
-DomainOptions: TypeAlias = Annotated[
-    list[str] | None, typer.Option("-D", metavar="KEY=VALUE", help="argument of the task's scene")
-]
-MethodOptions: TypeAlias = Annotated[
-    list[str] | None, typer.Option("-M", metavar="KEY=VALUE", help="field of the method")
-]
-SolverOptions: TypeAlias = Annotated[
-    list[str] | None, typer.Option("-S", metavar="KEY=VALUE", help="option of the solver")
-]
-Jobs: TypeAlias = Annotated[int | None, typer.Option("--jobs", min=1, help="worker processes")]
-NoScreens: TypeAlias = Annotated[
-    bool, typer.Option("--no-screens", help="test every plan in the world, even hopeless ones")
-]
-AuditOption: TypeAlias = Annotated[
-    int | None, typer.Option("--audit", min=0, help="put N rejects of the screens to the world after all")
-]
-Robust: TypeAlias = Annotated[
-    int | None,
-    typer.Option("--robust", min=0, help="accept only plans that also pass K rehearsals with small errors"),
-]
-CheckGoal: TypeAlias = Annotated[
-    bool | None,
-    typer.Option("--check-goal/--no-check-goal", help="accept only plans that satisfy the judge"),
-]
-LimitOptions: TypeAlias = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--limit", metavar="KEY=VALUE", help="limit of the box, e.g. call=2, or of the clock, e.g. round=60"
-    ),
-]
-UnsafeExec: TypeAlias = Annotated[
-    bool, typer.Option("--unsafe-exec", help="run programs WITHOUT the kernel's lock; warns each time")
-]
-LlmOptions: TypeAlias = Annotated[
-    list[str] | None, typer.Option("-L", metavar="KEY=VALUE", help="option of the LLM")
-]
+
+Given: TypeAlias = dict[str, Any]
+"""What was given of some options, by the names of their fields."""
+
+
+@dataclass(frozen=True)
+class Fields:
+    """Stands at a parameter of a command for the options that fill these fields; the command gets `Given`."""
+
+    names: tuple[str, ...]
+
+
+def fields(*names: str) -> Fields:
+    """The options with these names."""
+    return Fields(names)
+
+
+def all_fields(asks: bool = True) -> Fields:
+    """All options, or all but those of a run that asks an LLM."""
+    return Fields(tuple(name for name, option in OPTIONS.items() if asks or not option.shown.asks))
+
+
+def with_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """The command as typer reads it: with an option for each field that its parameters stand for."""
+    own = inspect.signature(command).parameters.values()
+    groups = {parameter.name: found.names for parameter in own if (found := _fields_of(parameter))}
+    if not groups:
+        return command
+
+    @functools.wraps(command)
+    def called(**values: Any) -> Any:
+        for group, names in groups.items():
+            taken = {name: values.pop(name) for name in names}
+            values[group] = {name: value for name, value in taken.items() if value is not None}
+        return command(**values)
+
+    shown = [one for parameter in own for one in _expanded(parameter)]
+    called.__signature__ = inspect.Signature(shown)  # type: ignore[attr-defined]
+    return called
+
+
+def _fields_of(parameter: inspect.Parameter) -> Fields | None:
+    return next((one for one in get_args(parameter.annotation)[1:] if isinstance(one, Fields)), None)
+
+
+def _expanded(parameter: inspect.Parameter) -> Iterator[inspect.Parameter]:
+    found = _fields_of(parameter)
+    if found is None:
+        yield parameter.replace(kind=inspect.Parameter.KEYWORD_ONLY)
+        return
+    for name in found.names:
+        yield _parameter(OPTIONS[name])
+
+
+def _parameter(option: Option) -> inspect.Parameter:
+    """The option in typer's terms; None where it is not given, whatever the default of its field."""
+    field, kind = option.field, option.field.annotation
+    pairs, flag = get_origin(kind) is dict, option.flag
+    if kind == bool | None:
+        flag += f"/--no-{flag.removeprefix('--')}"
+    least: Any = next((limit.ge for limit in field.metadata if isinstance(limit, Ge)), None)
+    metavar = "KEY=VALUE" if pairs else None
+    shown = typer.Option(None, flag, metavar=metavar, min=least, help=field.description)
+    return inspect.Parameter(
+        option.name, inspect.Parameter.KEYWORD_ONLY, default=shown, annotation=_type(kind) | None
+    )
+
+
+def _type(kind: Any) -> Any:
+    """The type of an option: what may be given several times is a list, pairs `key=value` are texts."""
+    if get_origin(kind) not in (dict, tuple):
+        return kind
+    return types.GenericAlias(list, str if get_origin(kind) is dict else get_args(kind)[0])

@@ -2,7 +2,7 @@
 
 import threading
 from collections.abc import Callable
-from typing import Annotated, TypeVar
+from typing import TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -11,7 +11,6 @@ from proc3s.llm.types import Completion, Price, Request, estimate_tokens
 from proc3s.llm.usage import Usage
 
 N = TypeVar("N", int, float)
-Limit = Annotated[float, Field(gt=0)]
 _NOTHING = Usage(prompt_tokens=0, completion_tokens=0)
 _FREE: frozenset[LLMFault] = frozenset(
     (
@@ -33,13 +32,14 @@ _FREE: frozenset[LLMFault] = frozenset(
 class Budget(BaseModel):
     """Limits of a run; None is no limit."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
 
-    max_cost: Limit | None = None
-    """US dollars."""
-    max_tokens: Annotated[int, Field(ge=1)] | None = None
-    """Tokens of prompts and answers together."""
-    max_calls: Annotated[int, Field(ge=1)] | None = None
+    max_cost: float | None = Field(None, gt=0)
+    """US dollars that live answers may cost"""
+    max_tokens: int | None = Field(None, ge=1)
+    """tokens that live prompts and answers may take"""
+    max_calls: int | None = Field(None, ge=1)
+    """live calls that may be made"""
 
 
 class Spent(BaseModel):

@@ -1,15 +1,16 @@
 """Options of a run as plain data."""
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any, get_origin
 
 from pydantic import Field
+from pydantic.fields import FieldInfo
 
-from proc3s import specs
 from proc3s.errors import UsageError
 from proc3s.llm.budget import Budget
-from proc3s.specs.yaml_files import validate
+from proc3s.specs.base import Spec
 
 DEFAULT_SOLVER = "rejection"
 
@@ -17,36 +18,103 @@ DEFAULT_SOLVER = "rejection"
 DEFAULT_PRESET = "best"
 
 
-class RunOptions(specs.Spec):
-    """What a run was asked to do; with the same options it does the same again."""
+@dataclass(frozen=True)
+class OnCommandLine:
+    """How the command line has a field, where that is not as `--NAME`; `asks`: only where an LLM is asked."""
+
+    flag: str = ""
+    asks: bool = False
+
+
+_ASKS = OnCommandLine(asks=True)
+Pairs = dict[str, str]
+
+
+class RunOptions(Spec):
+    """What a run was asked to do; with the same options it does the same again.
+
+    Commands and their help are made from these fields, in this order; see `cli/arguments.py`.
+    """
 
     task: str
-    llm: str | None = None
+    llm: Annotated[str | None, _ASKS] = None
+    """PROVIDER/MODEL, replay[:PATH], manual:DIR or stub:FILE  [default: PROC3S_LLM, proc3s.toml, replay]"""
+    candidates: Annotated[int, _ASKS] = Field(1, ge=1)
+    """programs asked for at once; they race"""
+    llm_jobs: Annotated[int | None, _ASKS] = Field(None, ge=1)
+    """calls to the LLM in flight  [default: --candidates]"""
+    record: Annotated[Path | None, _ASKS] = None
+    """cassette (.jsonl or folder) that keeps every answer"""
+    budget: Annotated[Budget, _ASKS] = Budget()
     method: str = "proc3s"
+    """see `proc3s list methods`"""
     solver: str | None = None
-    preset: str = DEFAULT_PRESET
+    """see `proc3s list solvers`"""
+    preset: str = Field(
+        DEFAULT_PRESET,
+        description=f"what method and command line leave open  [default: {DEFAULT_PRESET}]",
+    )
     executor: str = "serial"
-    seed: int = Field(0, ge=0)
-    goal: str | None = None
-    samples: int | None = Field(None, ge=1)
-    feedback: int | None = Field(None, ge=0)
-    template_dir: Path | None = None
-    plugins: tuple[Path, ...] = ()
-    domain_options: dict[str, str] = Field(default_factory=dict)
-    method_options: dict[str, str] = Field(default_factory=dict)
-    solver_options: dict[str, str] = Field(default_factory=dict)
-    llm_options: dict[str, str] = Field(default_factory=dict)
-    limits: dict[str, str] = Field(default_factory=dict)
-    unsafe_exec: bool = False
+    """see `proc3s list executors`"""
     jobs: int = Field(1, ge=1)
-    no_screens: bool = False
-    audit: int = Field(0, ge=0)
-    robust: int = Field(0, ge=0)
+    """worker processes"""
     check_goal: bool | None = None
-    candidates: int = Field(1, ge=1)
-    llm_jobs: int | None = Field(None, ge=1)
-    record: Path | None = None
-    budget: Budget = Budget()
+    """accept only plans that satisfy the judge"""
+    no_screens: bool = False
+    """test every plan in the world, even hopeless ones"""
+    audit: int = Field(0, ge=0)
+    """put N rejects of the screens to the world after all"""
+    robust: int = Field(0, ge=0)
+    """accept only plans that also pass K rehearsals with small errors"""
+    seed: int = Field(0, ge=0)
+    """scene and random draws"""
+    goal: str | None = None
+    """an instruction of your own (nobody judges it)"""
+    samples: int | None = Field(None, ge=1)
+    """samples per round"""
+    feedback: Annotated[int | None, _ASKS] = Field(None, ge=0)
+    """feedback rounds"""
+    template_dir: Annotated[Path | None, _ASKS] = None
+    """folder of templates that go before all others"""
+    plugins: Annotated[tuple[Path, ...], OnCommandLine("--plugin")] = ()
+    """a plugin in a loose file, Python or a domain.yaml (repeatable)"""
+    domain_options: Annotated[Pairs, OnCommandLine("-D")] = Field(default_factory=dict)
+    """argument of the task's scene"""
+    method_options: Annotated[Pairs, OnCommandLine("-M")] = Field(default_factory=dict)
+    """field of the method"""
+    solver_options: Annotated[Pairs, OnCommandLine("-S")] = Field(default_factory=dict)
+    """option of the solver"""
+    llm_options: Annotated[Pairs, OnCommandLine("-L", asks=True)] = Field(default_factory=dict)
+    """option of the LLM"""
+    limits: Annotated[Pairs, OnCommandLine("--limit")] = Field(default_factory=dict)
+    """limit of the box, e.g. call=2, or of the clock, e.g. round=60"""
+    unsafe_exec: bool = False
+    """run programs WITHOUT the kernel's lock; warns each time"""
+
+
+@dataclass(frozen=True)
+class Option:
+    """An option as whoever gives it sees it: a field, and how the command line has it."""
+
+    name: str
+    field: FieldInfo
+    shown: OnCommandLine
+
+    @property
+    def flag(self) -> str:
+        """What stands before its value."""
+        return self.shown.flag or f"--{self.name.replace('_', '-')}"
+
+
+def all_options() -> dict[str, Option]:
+    """The options that fill RunOptions, but for its task; those of the budget are options of their own."""
+    found: dict[str, Option] = {}
+    for name, field in RunOptions.model_fields.items():
+        shown = next((m for m in field.metadata if isinstance(m, OnCommandLine)), OnCommandLine())
+        fields = Budget.model_fields if field.annotation is Budget else {name: field}
+        found |= {each: Option(each, of, shown) for each, of in fields.items()}
+    del found["task"]
+    return found
 
 
 def key_values(pairs: list[str]) -> dict[str, str]:
@@ -61,31 +129,28 @@ def key_values(pairs: list[str]) -> dict[str, str]:
     return values
 
 
-_PAIRS = ("domain_options", "method_options", "solver_options", "llm_options", "limits")
-_BUDGET = ("max_cost", "max_tokens", "max_calls")
-_PATHS = ("template_dir", "record")
-
-
 def run_options(**given: Any) -> RunOptions:
     """Options of a run from what was given; None leaves the default. Raises UsageError or SpecError."""
+    from proc3s.specs.yaml_files import validate  # not while the command line is put together
+
     return validate(RunOptions, plain_options(given), "options")
 
 
 def plain_options(given: Mapping[str, Any]) -> dict[str, Any]:
     """What was given as fields of RunOptions: pairs `key=value` as dictionaries, paths in full."""
-    values = {name: value for name, value in given.items() if value is not None}
-    for name in _PAIRS:
-        if isinstance(values.get(name), list):
-            values[name] = key_values(values[name])
-        elif name in values:
-            values[name] = {key: str(value) for key, value in values[name].items()}
-    if budget := {name: values.pop(name) for name in _BUDGET if name in values}:
+    values = {name: _plain(name, value) for name, value in given.items() if value is not None}
+    if budget := {name: values.pop(name) for name in Budget.model_fields if name in values}:
         values["budget"] = budget
-    if "plugins" in values:
-        values["plugins"] = [path.resolve() for path in values["plugins"]]
-    for name in _PATHS:
-        if name in values:
-            values[name] = Path(values[name]).resolve()
     if values.get("jobs", 1) > 1:
         values.setdefault("executor", "processes")
     return values
+
+
+def _plain(name: str, value: Any) -> Any:
+    field = RunOptions.model_fields.get(name)
+    kind = field.annotation if field else None
+    if get_origin(kind) is dict:
+        return key_values(value) if isinstance(value, list) else {k: str(v) for k, v in value.items()}
+    if kind == Path | None:
+        return Path(value).resolve()
+    return [path.resolve() for path in value] if name == "plugins" else value

@@ -11,6 +11,7 @@ Many = list[str] | None
 
 
 def bench(
+    *,
     suite: Annotated[
         str,
         typer.Argument(
@@ -38,21 +39,15 @@ def bench(
         int | None,
         typer.Option("--seeds", min=1, help="scenes of every task: seeds 0 to N-1  [the suite's, or 5]"),
     ] = None,
-    llm: a.Llm = None,
-    llm_options: a.LlmOptions = None,
-    llm_jobs: a.LlmJobs = None,
-    record: a.Record = None,
+    asking: Annotated[a.Given, a.fields("llm", "llm_options", "llm_jobs", "record", "check_goal", "limits")],
     max_cost: Annotated[
         float | None, typer.Option("--max-cost", min=0, help="US dollars that all live answers may cost")
     ] = None,
-    check_goal: a.CheckGoal = None,
     resume: Annotated[
         Path | None,
         typer.Option("--resume", metavar="DIR", help="go on with a suite that was broken off"),
     ] = None,
-    limits: a.LimitOptions = None,
-    executor: a.ExecutorName = None,
-    jobs: a.Jobs = None,
+    given: Annotated[a.Given, a.fields("executor", "jobs", "plugins")],
     samples: Annotated[
         int | None, typer.Option("--samples", min=1, help="limit of a search  [the task's budget]")
     ] = None,
@@ -69,7 +64,6 @@ def bench(
         typer.Option("--times", min=1, help="execution: how often every plan is carried out  [default: 10]"),
     ] = None,
     out: Annotated[Path | None, typer.Option("--out", help="folder of the results  [runs/bench-…]")] = None,
-    plugin: a.Plugins = None,
     json: a.Json = False,
 ) -> None:
     """Run a suite of tasks by methods and seeds, and make its tables. Or measure how fast programs are
@@ -79,18 +73,9 @@ def bench(
     from proc3s.cli.handlers.bench_execution import run_field_test
     from proc3s.cli.handlers.bench_suite import SuiteWanted, run_suite
 
-    of_suites = {
-        "--methods": methods,
-        "--preset": preset,
-        "--llm": llm,
-        "-L": llm_options,
-        "--llm-jobs": llm_jobs,
-        "--record": record,
-        "--max-cost": max_cost,
-        "--check-goal": check_goal,
-        "--resume": resume,
-        "--limit": limits,
-    }
+    executor, jobs, plugins = given.get("executor"), given.get("jobs"), tuple(given.get("plugins", ()))
+    of_suites = {a.OPTIONS[name].flag: value for name, value in asking.items()}
+    of_suites |= {"--methods": methods, "--preset": preset, "--max-cost": max_cost, "--resume": resume}
     of_searches = {"--solvers": solvers, "--executor": executor, "--throughput": throughput}
     of_plans = {"--robust": robust, "--times": times}
     refuse_unused(
@@ -104,21 +89,16 @@ def bench(
     if suite not in SUITES:
         run_suite(
             SuiteWanted(
+                **asking,
                 suite=suite,
                 tasks=_split(tasks),
                 methods=_split(methods),
                 presets=_split(preset),
                 seeds=seeds,
                 samples=samples,
-                llm=llm,
-                llm_options=tuple(llm_options or ()),
-                llm_jobs=llm_jobs,
                 jobs=jobs or 1,
                 max_cost=max_cost,
-                check_goal=check_goal,
-                limits=tuple(limits or ()),
-                record=record,
-                plugins=tuple(plugin or ()),
+                plugins=plugins,
                 out=out,
                 resume=resume,
             ),
@@ -136,7 +116,7 @@ def bench(
         throughput=4096 if throughput is None else throughput,
         robust=2 if robust is None else robust,
         times=times or 10,
-        plugins=tuple(plugin or ()),
+        plugins=plugins,
     )
     {"ccsp": run_bench, "execution": run_field_test}[suite](wanted, out, json)
 

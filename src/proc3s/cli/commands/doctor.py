@@ -1,12 +1,14 @@
 """`proc3s doctor`."""
 
+from typing import Annotated
+
 import typer
 
 from proc3s.cli import arguments as a
 
 
 def doctor(
-    llm: a.Llm = None, llm_options: a.LlmOptions = None, plugin: a.Plugins = None, json: a.Json = False
+    given: Annotated[a.Given, a.fields("llm", "llm_options", "plugins")], json: a.Json = False
 ) -> None:
     """Check this installation: sandbox, packages, keys (never shown), servers. Asks no model."""
     import json as json_
@@ -20,8 +22,8 @@ def doctor(
     from proc3s.planning.options import key_values
     from proc3s.plugins.registry import open_registry
 
-    chosen = choose_llm(llm, key_values(llm_options or []))
-    findings = list(examine(open_registry(plugin or []), chosen))
+    chosen = choose_llm(given.get("llm"), key_values(given.get("llm_options", [])))
+    findings = list(examine(open_registry(given.get("plugins", [])), chosen))
     if json:
         print_document(
             json_.dumps([finding.model_dump() for finding in findings], indent=2, ensure_ascii=False)

@@ -18,14 +18,12 @@ class Format(StrEnum):
 
 
 def render_prompt(
+    *,
     task: Annotated[
         str | None,
         typer.Argument(metavar="[TASK]", help="domain/task; with --check also a domain, or nothing"),
     ] = None,
-    method: a.Method = None,
-    preset: a.Preset = None,
-    seed: a.Seed = None,
-    goal: a.Goal = None,
+    given: Annotated[a.Given, a.fields("method", "preset", "seed", "goal")],
     round_: Annotated[int, typer.Option("--round", min=0, help="feedback round; needs --from")] = 0,
     from_: Annotated[
         Path | None, typer.Option("--from", help="run folder that has the earlier rounds")
@@ -37,10 +35,7 @@ def render_prompt(
         typer.Option("--check", help="compare all renderings with approved files; exit 2 if they differ"),
     ] = None,
     update: Annotated[bool, typer.Option("--update", help="with --check: approve the renderings")] = False,
-    template_dir: a.TemplateDir = None,
-    plugin: a.Plugins = None,
-    domain_options: a.DomainOptions = None,
-    method_options: a.MethodOptions = None,
+    more: Annotated[a.Given, a.fields("template_dir", "plugins", "domain_options", "method_options")],
 ) -> None:
     """Print exactly what the LLM would be asked. Calls nobody."""
     from proc3s.cli.failures import warn_of_failures
@@ -49,17 +44,8 @@ def render_prompt(
     from proc3s.errors import UsageError
     from proc3s.plugins.registry import open_registry
 
-    given = {
-        "method": method,
-        "preset": preset,
-        "seed": seed,
-        "goal": goal,
-        "template_dir": template_dir,
-        "plugins": plugin,
-        "domain_options": domain_options,
-        "method_options": method_options,
-    }
-    registry = open_registry(plugin or [])
+    given |= more
+    registry = open_registry(given.get("plugins", []))
     if check is not None:
         if diff or from_ or round_ or format_ is not Format.text:
             raise UsageError(

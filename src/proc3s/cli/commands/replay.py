@@ -9,20 +9,13 @@ from proc3s.cli import arguments as a
 
 
 def replay(
+    *,
     run: Annotated[Path, typer.Argument(metavar="RUN", help="run folder")],
-    solver: a.Solver = None,
-    samples: a.Samples = None,
-    executor: a.ExecutorName = None,
+    given: Annotated[a.Given, a.fields("solver", "samples", "executor", "solver_options")],
     out: a.Out = None,
-    solver_options: a.SolverOptions = None,
     json: a.Json = False,
 ) -> None:
     """Solve the last program of a run again, without an LLM. With the same options: the identical plan."""
     from proc3s.cli.handlers.run import replay_run
 
-    replay_run(
-        run,
-        {"solver": solver, "samples": samples, "executor": executor, "solver_options": solver_options},
-        out,
-        json,
-    )
+    replay_run(run, given, out, json)

@@ -26,7 +26,7 @@ def check(registry: Registry, folder: Path, within: str | None, update: bool, gi
     rendered = dict(_all_renderings(registry, within, given))
     try:
         stale = {name: text for name, text in rendered.items() if _read(folder / name) != text}
-        orphans = [] if within or given["method"] else list(_orphans(registry, folder, rendered))
+        orphans = [] if within or "method" in given else list(_orphans(registry, folder, rendered))
         (_approve if update else _report)(folder, stale, orphans)
     except OSError as error:
         raise UsageError(f"{error.filename}: {error.strerror}") from error
@@ -80,7 +80,7 @@ def _all_renderings(
     elif within is not None:
         registry.get(DomainSpec, within)
     methods = {m.template: m.name for m in reversed(registry.all(MethodSpec).values())}
-    if given["method"]:
+    if "method" in given:
         chosen = registry.get(MethodSpec, given["method"])
         methods = {chosen.template: chosen.name}
     for domain in registry.all(DomainSpec).values():
@@ -88,7 +88,7 @@ def _all_renderings(
             name = f"{domain.name}/{task.name}"
             if within not in (None, domain.name, name):
                 continue
-            goal = given["goal"] or task.instruction or "(your instruction)"
+            goal = given.get("goal") or task.instruction or "(your instruction)"
             for template, method in sorted(methods.items()):
                 options = run_options(task=name, **{**given, "method": method, "goal": goal})
                 yield f"{name}.{template}.md", markdown(render(registry, options, 0, None))

@@ -2,7 +2,7 @@
 
 import json
 import shutil
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -45,12 +45,12 @@ class SuiteWanted:
     seeds: int | None = None
     samples: int | None = None
     llm: str | None = None
-    llm_options: tuple[str, ...] = ()
+    llm_options: Sequence[str] = ()
     llm_jobs: int | None = None
     jobs: int = 1
     max_cost: float | None = None
     check_goal: bool | None = None
-    limits: tuple[str, ...] = ()
+    limits: Sequence[str] = ()
     record: Path | None = None
     plugins: tuple[Path, ...] = ()
     out: Path | None = None

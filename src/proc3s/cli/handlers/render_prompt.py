@@ -40,8 +40,7 @@ def options_of(task: str, given: dict[str, Any], run: Path | None) -> RunOptions
     if logged.task != task:
         raise UsageError(f"{run} is a run of {logged.task}, not of {task}")
     own = run_options(task=task, **given)
-    changed = {name for name, value in given.items() if value is not None}
-    return logged.model_copy(update={name: getattr(own, name) for name in changed})
+    return logged.model_copy(update={name: getattr(own, name) for name in given})
 
 
 def _history(run: Path, rounds: int) -> list[Exchange]:
