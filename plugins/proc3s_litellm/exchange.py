@@ -42,7 +42,7 @@ class Exchange:
 def within(seconds: float, call: Callable[[], T], begun: threading.Event | None = None) -> T:
     """What a call returns or raises; TimeoutError if that takes longer, counted from when it is `begun`.
 
-    The timeouts of HTTP clients begin anew with every byte that drips in. So the call has a thread, which
+    The timeouts of HTTP clients restart with every byte that arrives. So the call has a thread, which
     is left behind when time is up and keeps no process alive.
     """
     done: SimpleQueue[tuple[Callable[[], T], BaseException | None]] = SimpleQueue()
@@ -51,7 +51,7 @@ def within(seconds: float, call: Callable[[], T], begun: threading.Event | None 
         try:
             result = call()
             done.put((lambda: result, None))
-        except BaseException as error:  # whatever ends the thread must be heard of
+        except BaseException as error:  # the caller must get every error of the thread
             done.put((call, error))
         finally:
             if begun is not None:

@@ -58,6 +58,6 @@ def hide_secrets(text: str, key: SecretStr | None) -> str:
 
 
 def _check(name: str, value: str) -> None:
-    """A key travels in a header, and whatever is no ASCII text fails there with the key in the message."""
+    """Refuse a key that is not ASCII: the HTTP header would fail with the key in its message."""
     if not (value.isascii() and value.isprintable()):
         raise LLMError(f"{name} holds characters that no key has; set it anew", "auth")

@@ -142,7 +142,7 @@ class TabletopWorld(World[Telemetry]):
         ]
 
     def close(self) -> None:
-        """Give up the simulator."""
+        """Release the simulator."""
         if self._table:
             self._table.close()
             self._table = None

@@ -12,7 +12,7 @@ Stopped = Literal["usage", "llm", "budget", "pending", "interrupted", "time"]
 
 
 class Proc3sError(Exception):
-    """Something a person can mend. The message says what was wrong, where, and what to do."""
+    """An error that the user can fix. The message says what was wrong, where, and what to do."""
 
     exit_code: ClassVar[int] = 2
     stopped: ClassVar[Stopped] = "usage"

@@ -97,7 +97,7 @@ def _marked(case):
 
 
 @pytest.mark.parametrize("check", map(_marked, BROKEN))
-def test_what_is_wrong_is_found_with_its_place_and_how_to_mend_it(check, push, cli):
+def test_what_is_wrong_is_found_with_its_place_and_how_to_fix_it(check, push, cli):
     name, old, new, words = BROKEN[check]
     check = check.partition(",")[0]
     replaced(push / name, old, new)
@@ -114,7 +114,7 @@ def test_what_is_wrong_is_found_with_its_place_and_how_to_mend_it(check, push, c
         assert finding["why"]
         assert finding["mend"]
     shown = cli("check", push)
-    assert (shown.code, f"wrong  {check}" in shown.stdout, "mend  " in shown.stdout) == (2, True, True)
+    assert (shown.code, f"wrong  {check}" in shown.stdout, "fix   " in shown.stdout) == (2, True, True)
 
 
 def test_a_skill_nobody_uses_is_a_note(push, cli):

@@ -37,7 +37,7 @@ SAID = [
         "cap draws no samples, so --samples, --no-screens change nothing",
     ),
     ([*STAR, "--audit", 5, "--no-screens"], "--audit changes nothing"),
-    ([*STAR, "--goal", "A house.", "--llm", "STUB", "--check-goal"], "nobody judges this instruction"),
+    ([*STAR, "--goal", "A house.", "--llm", "STUB", "--check-goal"], "this instruction has no judge"),
     ([*STAR, "--llm-jobs", 3], "--llm-jobs changes nothing"),
     ([*STAR, "--max-calls", 3], "--max-calls changes nothing: asking replay costs nothing"),
 ]

@@ -92,3 +92,8 @@ def jittered(rng, positions, by=0.0005):
     return {
         name: (x + rng.uniform(-by, by), y + rng.uniform(-by, by), z) for name, (x, y, z) in positions.items()
     }
+
+
+def moves(telemetry):
+    """Displacements by the name of the object."""
+    return {d.name: d for d in telemetry.displacements}

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 import test_actions
-from tables import bodies_of, carry_out, frames_of, jittered, packing, pyramid, scattered, world_of
+from tables import bodies_of, carry_out, frames_of, jittered, moves, packing, pyramid, scattered, world_of
 from test_agreement import resident
 from test_world import PICK, PLACE, START
 
@@ -39,10 +39,6 @@ def table(shared):
 
 def position(world, name):
     return dict(world.snapshot.frames)[name].position
-
-
-def moves(telemetry):
-    return {d.name: d for d in telemetry.displacements}
 
 
 @pytest.mark.parametrize("name", ["stack 10 mm off along y", "place, z = 0", "into the bowl"])

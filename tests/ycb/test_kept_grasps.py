@@ -13,7 +13,7 @@ from proc3s.domain.world import make_world
 from proc3s.plugins.registry import open_registry
 from proc3s.search.rollout import rollout
 from proc3s_tabletop.catalogue.body_specs import bodies_of
-from proc3s_tabletop.screens.grasp_cache import GraspVerdict, Verdicts
+from proc3s_tabletop.screens.grasp_cache import GraspCache, GraspVerdict
 from proc3s_tabletop.screens.grasps import grasps
 from proc3s_tabletop.screens.lone_grasps import LoneGrasps
 from proc3s_tabletop.tasks.grasp_sampler import GraspSampler, pool
@@ -27,8 +27,8 @@ PICK = next(k for k, s in enumerate(SIGNATURES) if s.skill == "pick")
 ADD = """
 import sys
 from pathlib import Path
-from proc3s_tabletop.screens.grasp_cache import GraspVerdict, Verdicts
-store = Verdicts(sys.argv[2], Path(sys.argv[1]))
+from proc3s_tabletop.screens.grasp_cache import GraspCache, GraspVerdict
+store = GraspCache(sys.argv[2], Path(sys.argv[1]))
 for k in range(50):
     store.add({(k / 10, 0.0, 0.0, 0.0, 0.0, float(sys.argv[3])): GraspVerdict(k / 100, 0.5, k % 2 == 0)})
 """
@@ -54,21 +54,21 @@ def test_verdicts_are_kept_under_their_key(tmp_path):
         (0.1, 0.0, 0.0, 0.0, 0.0, 0.5): GraspVerdict(0.001, 0.6),
         (0.2,) * 6: GraspVerdict(0.0, 1.0, True),
     }
-    Verdicts("a", tmp_path).add(found)
-    assert Verdicts("a", tmp_path).read() == found
-    assert Verdicts("b", tmp_path).read() == {}
+    GraspCache("a", tmp_path).add(found)
+    assert GraspCache("a", tmp_path).read() == found
+    assert GraspCache("b", tmp_path).read() == {}
 
 
 def test_a_damaged_file_is_begun_anew(tmp_path):
     (tmp_path / "grasps.sqlite").write_bytes(b"no database, but long enough to be read as one" * 100)
-    store = Verdicts("a", tmp_path)
+    store = GraspCache("a", tmp_path)
     assert store.read() == {}
     store.add({(0.0,) * 6: GraspVerdict(0.0, 1.0)})
     assert len(store.read()) == 1
 
 
 def test_a_file_with_a_damaged_page_is_begun_anew(tmp_path):
-    store = Verdicts("a", tmp_path)
+    store = GraspCache("a", tmp_path)
     store.add({(k / 7, *(0.1,) * 5): GraspVerdict(0.0, 1.0) for k in range(500)})
     path = tmp_path / "grasps.sqlite"
     content = bytearray(path.read_bytes())
@@ -81,7 +81,7 @@ def test_processes_add_at_once(tmp_path):
     command = [sys.executable, "-c", ADD, tmp_path, "a"]
     running = [subprocess.Popen([*command, str(k)]) for k in range(3)]
     assert [process.wait(60) for process in running] == [0, 0, 0]
-    assert len(Verdicts("a", tmp_path).read()) == 150
+    assert len(GraspCache("a", tmp_path).read()) == 150
 
 
 def test_what_was_measured_is_not_measured_again(fresh, monkeypatch):

@@ -1,1 +1,1 @@
-"""What a pick and a place are, whatever engine carries them out."""
+"""What a pick and a place are, independent of the engine."""

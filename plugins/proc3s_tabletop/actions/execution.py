@@ -1,4 +1,4 @@
-"""The execution world: accepted plans are carried out here, by motors and friction, whatever happens."""
+"""The execution world: carries accepted plans out by motors and friction, and refuses nothing."""
 
 import dataclasses
 from collections.abc import Callable, Mapping
@@ -22,7 +22,7 @@ class Execution(Table):
     """
 
     def pick_at(self, grasp: FloatArray) -> Telemetry:
-        """Open the hand, go down, close it, and lift whatever is in it."""
+        """Open the hand, go down, close it, and lift."""
         return self._carry_out("pick", pick, grasp)
 
     def place_at(self, grasp: FloatArray) -> Telemetry:

@@ -1,4 +1,4 @@
-"""What an action came to: everything at rest, what moved, what left the table."""
+"""The end of an action: waits for rest, and measures what moved and what left the table."""
 
 from collections.abc import Mapping, Sequence
 

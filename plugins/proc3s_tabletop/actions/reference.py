@@ -66,6 +66,6 @@ class Reference(Table):
         return dataclasses.replace(attempt.telemetry, held=held.name if held else None)
 
     def close(self) -> None:
-        """Give up both simulators."""
+        """Release both simulators."""
         self._grips.close()
         super().close()

@@ -1,4 +1,4 @@
-"""Grips and falls of a few things, simulated apart from the scene, once for every way these things lie."""
+"""Simulates grips and falls of a few objects apart from the scene, and caches the outcome by their poses."""
 
 import dataclasses
 import functools
@@ -13,17 +13,17 @@ from proc3s_tabletop.robot.frames import Frame, rounded
 from proc3s_tabletop.robot.settings import ReferenceSettings
 
 MOST = 1024
-"""Outcomes of each sort that are remembered; the one not used for longest goes."""
+"""Cached outcomes of each kind; the least recently used one goes first."""
 
 DIGITS = 6
-"""Where things lie is rounded to so many, in m and in parts of a quaternion."""
+"""Decimals of the poses that an outcome is cached by, in m and in parts of a quaternion."""
 
 
 class GripSimulator:
     """Simulates a few things on a table under a hand without an arm, always in the same place.
 
-    Among the bodies of one scene the outcome is a function of what is asked alone, so it is remembered:
-    whichever of them are meant, the first ones of the same sort stand in for them. Close it after use.
+    The outcome depends on the question alone, so it is cached. Equal bodies of a scene share their outcomes:
+    the first of each sort is simulated in place of the others. Close it after use.
     """
 
     def __init__(self, bodies: Mapping[str, Body], settings: ReferenceSettings) -> None:
@@ -100,7 +100,7 @@ class GripSimulator:
         return tuple(Frame(*client.multiplyTransforms(*back, *frame)) for frame in frames)
 
     def close(self) -> None:
-        """Give up the simulator."""
+        """Release the simulator."""
         if self._made:
             self._made.close()
             self._made = None

@@ -109,7 +109,7 @@ class Studio:
         return Image.fromarray(np.where(empty, _background(height), drawn)).resize(SIZE, Image.Resampling.BOX)
 
     def close(self) -> None:
-        """Give up the client."""
+        """Release the client."""
         self._client.close()
 
 

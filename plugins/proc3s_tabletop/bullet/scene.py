@@ -41,7 +41,7 @@ class Scene(TableScene):
         return forces.Guard(self, held)
 
     def load(self, snapshot: Snapshot) -> None:
-        """Put everything where a snapshot has it, bit for bit the same whatever the client did before."""
+        """Restore a snapshot, bit for bit the same whatever was simulated before."""
         self.set_iterations(self.settings.iterations)
         self.robot.put_arm(np.array(HOME))
         self.robot.put_fingers(0.0)

@@ -65,7 +65,7 @@ class TableScene:
         """Park every body, and forget all contacts.
 
         PyBullet keeps contacts of touching bodies from one step to the next; what is put somewhere after
-        this behaves the same to the last bit, whatever the client did before.
+        this behaves the same to the last bit, independent of what was simulated before.
         """
         for name in self.bodies:
             self.park(name)

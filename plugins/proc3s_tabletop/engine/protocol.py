@@ -79,7 +79,7 @@ class Guard(Protocol):
 
 
 class TableSimulation(Protocol):
-    """A table with named bodies: what is common to all simulations of one."""
+    """A simulated table with named bodies: what all simulations have in common."""
 
     settings: ReferenceSettings
     shapes: Mapping[str, Body]
@@ -140,7 +140,7 @@ class Simulation(TableSimulation, Protocol):
         """The arm and its hand."""
 
     def load(self, snapshot: Snapshot) -> None:
-        """Put everything where a snapshot has it, bit for bit the same whatever was simulated before."""
+        """Restore a snapshot, bit for bit the same whatever was simulated before."""
 
     def save(self) -> Snapshot:
         """The scene as it stands, at rest."""
@@ -198,10 +198,10 @@ class GripSimulation(Protocol):
     """Grips and falls of a few things apart from the scene; equal questions have equal answers."""
 
     def grip(self, tool: Frame, lies: Lies, speed: float) -> Grip:
-        """What comes of closing the hand, its tool0 at a frame, on the first of the things that lie there."""
+        """Close the hand, its tool0 at a frame, on the first of the bodies that lie there."""
 
     def rest(self, lies: Lies) -> Rest:
-        """Where things come to rest that nothing holds any more."""
+        """Where bodies come to rest that nothing holds any more."""
 
     def close(self) -> None:
         """Release the simulator."""

@@ -1,4 +1,4 @@
-"""Snapshots: everything that an action starts from, as plain data, whatever engine made it."""
+"""Snapshots: everything that an action starts from, as plain data of no engine."""
 
 import dataclasses
 from dataclasses import dataclass
@@ -24,7 +24,7 @@ class Snapshot:
     """The six numbers of the grasp, in the frame of the object, that a pick named with the object."""
 
     def after(self, before: "Snapshot") -> "Snapshot":
-        """The same, but what has hardly moved since `before` is where it was: nothing creeps."""
+        """The same, with objects that hardly moved since `before` put back: nothing creeps."""
         frames = zip(before.frames, self.frames, strict=True)
         held = {snapshot.held.name for snapshot in (before, self) if snapshot.held}
         kept = ((n, old if n not in held and _same(old, new) else new) for (n, old), (_, new) in frames)

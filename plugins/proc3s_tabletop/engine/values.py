@@ -1,4 +1,4 @@
-"""What simulations are asked and answer, as plain data."""
+"""Questions to simulations and their answers, as plain data."""
 
 from dataclasses import dataclass
 from typing import NamedTuple, TypeAlias
@@ -23,7 +23,7 @@ class Touch(NamedTuple):
 
 @dataclass(frozen=True)
 class Grip:
-    """What came of a grip; it failed where the telemetry has `ended`, and is left as it was then.
+    """The result of a grip; it failed where the telemetry has `ended`, and is left as it was then.
 
     `held` is the target in the frame of tool0, `lies` where the others are, in the order in which they were
     given. The telemetry names a body by its place in that order.

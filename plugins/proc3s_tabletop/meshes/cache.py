@@ -1,4 +1,4 @@
-"""Where prepared meshes are kept: files with a checksum, written whole, one process at a time."""
+"""The cache of prepared meshes: files with a checksum, written atomically by one process at a time."""
 
 import contextlib
 import hashlib
@@ -16,14 +16,14 @@ from numpy.typing import NDArray
 from proc3s_tabletop.extra import extra
 
 VARIABLE = "PROC3S_CACHE"
-"""Environment variable that names another folder than the user's cache."""
+"""Environment variable that overrides the user's cache folder."""
 SUFFIX = ".mesh"
 
 Arrays: TypeAlias = Mapping[str, NDArray[Any]]
 
 
 def folder() -> Path:
-    """Where prepared meshes are kept, made if need be; else, with a warning, a temporary folder."""
+    """The folder of prepared meshes, created if missing; if not writable, a temporary one and a warning."""
     import platformdirs
 
     root = Path(os.environ.get(VARIABLE) or platformdirs.user_cache_path("proc3s"))
@@ -38,7 +38,7 @@ def folder() -> Path:
 
 @extra()
 def kept(key: str, make: Callable[[], Arrays]) -> Arrays:
-    """The arrays kept under a key; made, once among all processes, where they are not there whole."""
+    """The arrays stored under a key; `make` computes missing or damaged ones, in one process at a time."""
     from filelock import FileLock
 
     where = folder()
@@ -56,7 +56,7 @@ def kept(key: str, make: Callable[[], Arrays]) -> Arrays:
 
 
 def _read(path: Path) -> Arrays | None:
-    """What a file keeps; None where there is none, or one that is damaged."""
+    """The arrays of a file; None if it is missing or damaged."""
     try:
         checksum, _, content = path.read_bytes().partition(b"\n")
     except FileNotFoundError:
@@ -77,7 +77,7 @@ def _write(path: Path, arrays: Arrays) -> None:
 
 @contextlib.contextmanager
 def _whole(path: Path) -> Iterator[Any]:
-    """A file that appears under its name when it is complete, or not at all."""
+    """A temporary file that is renamed to `path` once it is complete."""
     with tempfile.NamedTemporaryFile(dir=path.parent, prefix=path.stem[:8], delete=False) as file:
         try:
             yield file
@@ -93,7 +93,7 @@ def _checksum(content: bytes) -> bytes:
 
 
 def _instead(path: Path, reason: str) -> Path:
-    """A folder for this user while the proper one cannot be used."""
+    """A temporary folder of this user, in place of the cache folder."""
     where = Path(tempfile.gettempdir()) / f"proc3s-meshes-{os.getuid()}"
     where.mkdir(mode=0o700, exist_ok=True)
     warnings.warn(f"{path} cannot be written ({reason}): meshes are kept in {where}", stacklevel=2)

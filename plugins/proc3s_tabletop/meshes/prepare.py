@@ -14,13 +14,13 @@ from proc3s_tabletop.meshes import cache as mesh_cache
 from proc3s_tabletop.objects.shapes import MARGIN, Mesh, Surface
 
 FORMAT = 3
-"""Of what is kept; another number makes everything anew."""
+"""Cache format version; bump it to invalidate old entries."""
 
 SMALLEST, LARGEST = 0.002, 1.0
 """Edges of the box around a body, m: what is thinner or larger is no object for this table."""
 
 SLIVER = 0.001
-"""What is joined to nothing and has less than this share of the largest part's surface is no part of it."""
+"""A loose part that has less than this share of the largest part's surface is no part of it."""
 
 Turn: TypeAlias = tuple[float, float, float]
 

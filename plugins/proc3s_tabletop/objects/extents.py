@@ -38,9 +38,9 @@ def extent(body: Body, pose: Any) -> Extent:
 
 
 def thickness(points: FloatArray) -> float:
-    """How far points (n, 3) reach along the way in which they differ least, m."""
-    *_, ways = np.linalg.svd(points - points.mean(axis=0), full_matrices=False)
-    return float(np.ptp(points @ ways[-1]))
+    """How far points (n, 3) reach along the direction in which they differ least, m."""
+    *_, axes = np.linalg.svd(points - points.mean(axis=0), full_matrices=False)
+    return float(np.ptp(points @ axes[-1]))
 
 
 def rotation(roll: float, pitch: float, yaw: float) -> FloatArray:
@@ -64,11 +64,11 @@ def covers(outline: FloatArray, x: float, y: float) -> bool:
 
 def strip(points: FloatArray) -> float:
     """Least distance within which a straight line passes all points (n, 2)."""
-    ways = (points[None, :] - points[:, None]).reshape(-1, 2)
-    ways = ways[np.linalg.norm(ways, axis=1) > 1e-9]
-    if not len(ways):
+    lines = (points[None, :] - points[:, None]).reshape(-1, 2)
+    lines = lines[np.linalg.norm(lines, axis=1) > 1e-9]
+    if not len(lines):
         return 0.0
-    across = np.stack([-ways[:, 1], ways[:, 0]]) / np.linalg.norm(ways, axis=1)
+    across = np.stack([-lines[:, 1], lines[:, 0]]) / np.linalg.norm(lines, axis=1)
     return float(np.ptp(points @ across, axis=0).min() / 2)
 
 

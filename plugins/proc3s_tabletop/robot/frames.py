@@ -1,4 +1,4 @@
-"""Poses of states, in roll, pitch and yaw, and frames of the simulator, with quaternions."""
+"""Converts poses of states (roll, pitch, yaw) to frames of the simulator (quaternions), and back."""
 
 import math
 from typing import Any, NamedTuple
@@ -7,7 +7,7 @@ from proc3s_tabletop.telemetry import Quaternion, Vector
 
 
 class Frame(NamedTuple):
-    """A pose as PyBullet has it: metres, and a quaternion x, y, z, w."""
+    """A pose as engines have it: metres, and a quaternion x, y, z, w."""
 
     position: Vector
     rotation: Quaternion

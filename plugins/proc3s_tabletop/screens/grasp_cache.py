@@ -1,6 +1,6 @@
-"""What was found of grasps in earlier runs: a small database in the user's cache folder.
+"""Grasps measured in earlier runs: a small database in the user's cache folder.
 
-SQLite, since several processes add to it at once, a row at a time, and a killed one must leave it whole.
+SQLite, since several processes add rows at the same time, and a killed one must leave the file intact.
 """
 
 import sqlite3
@@ -12,8 +12,8 @@ from typing import NamedTuple, TypeAlias
 from proc3s_tabletop.meshes import cache as mesh_cache
 
 NAME = "grasps.sqlite"
-PATIENCE = 10.0
-"""How long a process waits for another to finish writing, s."""
+LOCK_TIMEOUT = 10.0
+"""Seconds that a process waits for another one to finish writing."""
 
 Grasp: TypeAlias = tuple[float, ...]
 """x, y, z (m), roll, pitch, yaw (rad), rounded."""
@@ -28,20 +28,20 @@ class GraspVerdict(NamedTuple):
     holds: bool | None = None
 
 
-class Verdicts:
-    """The verdicts on grasps of one body in one rest, found under a key; a damaged file is begun anew."""
+class GraspCache:
+    """Verdicts on grasps of one body in one rest pose, stored under a key; a damaged file is replaced."""
 
     def __init__(self, key: str, folder: Path | None = None) -> None:
         self._key, self._path = key, (folder or mesh_cache.folder()) / NAME
 
     def read(self) -> dict[Grasp, GraspVerdict]:
-        """All that are known."""
+        """All verdicts that are stored."""
         with self._table() as table:
             rows = table.execute("SELECT * FROM grasps WHERE key = ?", (self._key,)).fetchall()
         return {tuple(row[1:7]): GraspVerdict(row[7], row[8], _flag(row[9])) for row in rows}
 
     def add(self, found: Mapping[Grasp, GraspVerdict]) -> None:
-        """Keep verdicts; where two processes find one at the same time, it is the same."""
+        """Store verdicts; two processes that measure the same grasp get equal ones."""
         rows = [(self._key, *grasp, *verdict) for grasp, verdict in found.items()]
         with self._table() as table:
             table.executemany("INSERT OR REPLACE INTO grasps VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)", rows)
@@ -50,7 +50,7 @@ class Verdicts:
     def _table(self) -> Iterator[sqlite3.Connection]:
         try:
             connection = _opened(self._path)
-        except sqlite3.OperationalError:  # no folder, no room, or another process writes for ever
+        except sqlite3.OperationalError:  # no folder, a full disk, or another process holds the lock
             raise
         except sqlite3.DatabaseError:
             self._path.unlink(missing_ok=True)
@@ -61,7 +61,7 @@ class Verdicts:
 
 def _opened(path: Path) -> sqlite3.Connection:
     """A connection to the database, made if need be. Raises DatabaseError where the file is none."""
-    connection = sqlite3.connect(path, timeout=PATIENCE)
+    connection = sqlite3.connect(path, timeout=LOCK_TIMEOUT)
     try:
         connection.execute("PRAGMA journal_mode = WAL")
         connection.execute(

@@ -1,4 +1,4 @@
-"""What is known of grasping a body that stands alone: a matter of the body, its rest and the grasp only."""
+"""Measurements of grasps on a body that stands alone: they depend on body, rest pose and grasp only."""
 
 import dataclasses
 import functools
@@ -16,18 +16,18 @@ from proc3s_tabletop.robot.frames import Frame
 from proc3s_tabletop.robot.grasp_frames import tool_poses
 from proc3s_tabletop.robot.settings import ReferenceSettings
 from proc3s_tabletop.robot.widths import Bools, too_wide
-from proc3s_tabletop.screens.grasp_cache import Grasp, GraspVerdict, Verdicts
+from proc3s_tabletop.screens.grasp_cache import Grasp, GraspCache, GraspVerdict
 from proc3s_tabletop.tasks.grasp_sampler import pool
 
 FORMAT = 1
-"""Of what is kept; another number makes everything anew."""
+"""Cache format version; bump it to invalidate old entries."""
 DIGITS = 6
-"""To which grasps are rounded, in m and rad, so that equal ones are known again."""
+"""Grasps are rounded to this, in m and rad, so that equal ones share a cache entry."""
 LENIENCE = 1.005
 """An object that slips by so much more than the world allows slips there, too: a lift test repeats itself to
 a few micrometres, wherever on the table it is done (measured)."""
 MOST = 100_000
-"""Grasps of one body that are remembered."""
+"""Grasps of one body that are kept in memory."""
 
 BODY = "body"
 
@@ -45,7 +45,7 @@ def recurring() -> frozenset[Grasp]:
 
 
 def rounded(grasp: FloatArray) -> Grasp:
-    """A grasp (6,) as it is known again."""
+    """The cache key of a grasp (6,)."""
     return tuple(np.round(grasp, DIGITS).tolist())
 
 
@@ -60,7 +60,7 @@ class LoneGrasps:
             max_slip_angle=ReferenceSettings().max_slip_angle * LENIENCE,
         )
         said = f"{FORMAT} {body!r} {roll!r} {pitch!r} {settings!r}"
-        self._kept = Verdicts(hashlib.sha256(said.encode()).hexdigest())
+        self._kept = GraspCache(hashlib.sha256(said.encode()).hexdigest())
         self._known = self._kept.read()
 
     def fits(self, grasps: FloatArray) -> FloatArray:

@@ -18,7 +18,7 @@ STAGES = ("program", "screens", "world", "other")
 
 @dataclass(frozen=True)
 class SearchVariant:
-    """A way to search: a solver, and what saves work around it."""
+    """A variant of the search: a solver, with or without screens and prefix cache."""
 
     name: str
     solver: str
@@ -29,11 +29,11 @@ class SearchVariant:
 
 
 PLAIN = SearchVariant("plain", "rejection", saving=False)
-"""What everything is compared with: rejection, no screens, no prefix cache, in this process."""
+"""The baseline: rejection sampling without screens or prefix cache, in this process."""
 
 
 SCREENED = SearchVariant("screened", "rejection")
-"""The same with all that saves work."""
+"""The baseline with screens and prefix cache."""
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,7 @@ class Measurement:
 
 
 class Meter:
-    """An evaluator, and the time that goes by around it from now on, worker processes included."""
+    """Measures the CPU time of an evaluator from now on, worker processes included."""
 
     def __init__(
         self, problem: Problem, executor: Executor, sketch: Sketch, audit: Audit | None = None
@@ -81,13 +81,13 @@ class Meter:
         parts["world"] += max(pool - self._pool, 0.0)
         return {stage: parts[stage] for stage in STAGES}
 
-    def read(self, case: Case, way: SearchVariant, solved: bool, error: str | None) -> Measurement:
-        """What was done since."""
+    def read(self, case: Case, variant: SearchVariant, solved: bool, error: str | None) -> Measurement:
+        """The measurement since the meter was made."""
         cpu, wall = self.cpu(), time.perf_counter() - self._wall
         evaluator = self.evaluator
         return Measurement(
             case=case.label,
-            way=way.name,
+            way=variant.name,
             seed=self._seed,
             solved=solved,
             samples=evaluator.samples,

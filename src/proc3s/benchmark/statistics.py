@@ -1,4 +1,4 @@
-"""Figures of a benchmark: what a way of searching cost, and how it compares with the plain one by seed."""
+"""Figures of a benchmark: the cost of each search variant, and its ratio to the plain one, paired by seed."""
 
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
@@ -32,7 +32,7 @@ class Ratio(BaseModel):
 
 
 class Row(BaseModel):
-    """All seeds of one case and one way. Times are CPU; a stage's are microseconds or seconds by its name."""
+    """All seeds of a case and a variant. Times are CPU; a stage's are microseconds or seconds by its name."""
 
     model_config = ConfigDict(frozen=True)
 
@@ -46,7 +46,7 @@ class Row(BaseModel):
     """Median of the plans that the world was given."""
     us_per_sample: dict[str, float]
     s_per_solution: dict[str, float] | None
-    """All that was spent, on unsolved seeds too, per plan found."""
+    """Total cost, unsolved seeds included, per plan found."""
     samples_per_second: float
     faster_per_sample: Ratio | None = None
     fewer_samples: Ratio | None = None
@@ -61,7 +61,7 @@ class Row(BaseModel):
 
 
 def rows(measurements: Sequence[Measurement]) -> list[Row]:
-    """One row for every case and way, in the order in which they were measured."""
+    """One row for every case and variant, in the order in which they were measured."""
     keys = dict.fromkeys((m.case, m.way) for m in measurements)
     return [_row(case, way, measurements) for case, way in keys]
 

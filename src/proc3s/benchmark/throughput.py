@@ -1,4 +1,4 @@
-"""The benchmark of the second stage: fixed programs, every way of searching them, paired by seed. No LLM.
+"""The benchmark of the second stage: fixed programs, every search variant, paired by seed. No LLM.
 
 A domain brings its programs as `bench/TASK.NAME.py`; a first line `# scene: count=100` sets options of the
 scene generator.
@@ -29,7 +29,7 @@ _BATCHES = (64, 192, 768, 1024)
 
 
 _ENOUGH = 8.0
-"""CPU seconds after which a throughput run begins no further batch: in a simulator few plans say enough."""
+"""CPU seconds after which a throughput run starts no further batch; simulators need few plans."""
 
 
 _AUDITED = 50
@@ -40,17 +40,19 @@ _WARMING = 6
 
 
 class Bench:
-    """Measures cases; a context manager. Every way keeps its executor, so workers start once and not in a
+    """Measures cases; a context manager. Every variant keeps its executor, so workers start once, outside a
     measurement.
 
     `samples` replaces the budget of the tasks.
     """
 
-    def __init__(self, registry: Registry, ways: Sequence[SearchVariant], samples: int | None = None) -> None:
+    def __init__(
+        self, registry: Registry, variants: Sequence[SearchVariant], samples: int | None = None
+    ) -> None:
         self._registry = registry
-        self._ways = (PLAIN, *ways)
+        self._variants = (PLAIN, *variants)
         self._samples = samples
-        kinds = {(way.executor, way.jobs) for way in self._ways}
+        kinds = {(variant.executor, variant.jobs) for variant in self._variants}
         self._executors: dict[tuple[str, int], Executor] = {
             (name, jobs): make_executor(registry, name, jobs) for name, jobs in sorted(kinds)
         }
@@ -64,33 +66,33 @@ class Bench:
             executor.close()
 
     def search(self, case: Case, seed: int) -> Iterator[Measurement]:
-        """Every way on one scene, the plain one first."""
+        """Measure every variant on one scene, the plain one first."""
         with open_sketch(self._setup(case, seed, PLAIN), case.program) as opened:
-            for way in self._ways:
-                setup = self._setup(case, seed, way)
-                if way.name not in self._warm:
+            for variant in self._variants:
+                setup = self._setup(case, seed, variant)
+                if variant.name not in self._warm:
                     _warm_up(setup, opened.sketch)
-                    self._warm.add(way.name)
-                yield _search(case, way, setup, opened.sketch)
+                    self._warm.add(variant.name)
+                yield _search(case, variant, setup, opened.sketch)
 
     def throughput(self, case: Case, seed: int, samples: int) -> Iterator[Measurement]:
         """Uniform samples in large batches, whatever is accepted among them: plain, and screened.
 
-        Of what the screens reject a few are put to the world afterwards, which no time counts.
+        A few plans that screens reject are re-checked in the world afterwards, outside the measurement.
         """
-        for way in (PLAIN, SCREENED):
-            yield self.stream(case, seed, way, samples)
+        for variant in (PLAIN, SCREENED):
+            yield self.stream(case, seed, variant, samples)
 
-    def stream(self, case: Case, seed: int, way: SearchVariant, samples: int) -> Measurement:
-        """The same in one of these ways; `audited` and `wrong` tell how the screens did."""
+    def stream(self, case: Case, seed: int, variant: SearchVariant, samples: int) -> Measurement:
+        """The same for one variant; `audited` and `wrong` count re-checked and wrong rejects."""
         with open_sketch(self._setup(case, seed, PLAIN), case.program) as opened:
-            return _stream(case, way, self._setup(case, seed, way), opened.sketch, samples)
+            return _stream(case, variant, self._setup(case, seed, variant), opened.sketch, samples)
 
-    def _setup(self, case: Case, seed: int, way: SearchVariant) -> Setup:
+    def _setup(self, case: Case, seed: int, variant: SearchVariant) -> Setup:
         options = RunOptions.model_validate(
             {
                 "task": case.task,
-                "solver": way.solver,
+                "solver": variant.solver,
                 "preset": "paper",
                 "seed": seed,
                 "samples": self._samples,
@@ -100,11 +102,11 @@ class Bench:
         )
         problem = dataclasses.replace(
             make_problem(self._registry, options, goal_needed=False),
-            screens="all" if way.saving else "none",
-            prefixes=way.saving,
+            screens="all" if variant.saving else "none",
+            prefixes=variant.saving,
         )
         setup = make_setup(self._registry, options, problem)
-        return dataclasses.replace(setup, executor=self._executors[way.executor, way.jobs])
+        return dataclasses.replace(setup, executor=self._executors[variant.executor, variant.jobs])
 
 
 def _warm_up(setup: Setup, sketch: Sketch) -> None:
@@ -118,7 +120,7 @@ def _warm_up(setup: Setup, sketch: Sketch) -> None:
         solver.tell([Trial(u=tuple(row)) for row in asked.tolist()])
 
 
-def _search(case: Case, way: SearchVariant, setup: Setup, sketch: Sketch) -> Measurement:
+def _search(case: Case, variant: SearchVariant, setup: Setup, sketch: Sketch) -> Measurement:
     problem = setup.problem
     meter = Meter(problem, setup.executor, sketch)
     found = start_search(meter.evaluator, setup.make_solver, problem.samples)
@@ -127,10 +129,10 @@ def _search(case: Case, way: SearchVariant, setup: Setup, sketch: Sketch) -> Mea
         raise found.broken_off
     stopped = found.trials[-1].error if found.alike else found.halted
     error = str(stopped) if stopped else None
-    return meter.read(case, way, found.solution is not None, error)
+    return meter.read(case, variant, found.solution is not None, error)
 
 
-def _stream(case: Case, way: SearchVariant, setup: Setup, sketch: Sketch, samples: int) -> Measurement:
+def _stream(case: Case, variant: SearchVariant, setup: Setup, sketch: Sketch, samples: int) -> Measurement:
     problem, executor = setup.problem, setup.executor
     u = np.random.default_rng(problem.seed).random((samples, sketch.space.dim))
     list(Evaluator(problem, sketch, executor).stream(u[:64]))
@@ -142,6 +144,6 @@ def _stream(case: Case, way: SearchVariant, setup: Setup, sketch: Sketch, sample
         batch = u[at : at + next(sizes)]
         accepted += sum(trial.accepted for trial in meter.evaluator.stream(batch))
         at += len(batch)
-    measured = meter.read(case, way, accepted > 0, None)
+    measured = meter.read(case, variant, accepted > 0, None)
     found = audit.check(problem, executor)
     return dataclasses.replace(measured, audited=found.checked, wrong=len(found.wrong))

@@ -17,7 +17,7 @@ Run: TypeAlias = Callable[[Subject], Iterator[Fault]]
 
 @dataclass(frozen=True)
 class Check:
-    """What is looked at, why it matters, and how to mend it."""
+    """What is checked, why it matters, and how to fix it."""
 
     name: str
     why: str
@@ -41,7 +41,7 @@ class CheckFinding(BaseModel):
     why: str
     """Why it matters."""
     mend: str
-    """How to mend it."""
+    """How to fix it."""
 
 
 CHECKS: tuple[Check, ...] = (
@@ -121,7 +121,7 @@ CHECKS: tuple[Check, ...] = (
 
 
 def examine(subject: Subject) -> Iterator[tuple[Check, list[CheckFinding], float]]:
-    """Every check with what it found and the seconds it took; one that raises has found that."""
+    """Every check with its findings and the seconds it took; an exception in a check is its finding."""
     for check in CHECKS:
         began = time.monotonic()
         yield check, findings(check, subject), time.monotonic() - began

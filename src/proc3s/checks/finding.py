@@ -6,12 +6,12 @@ from pydantic import BaseModel, ConfigDict
 
 
 class Finding(BaseModel):
-    """One result of a check: fine, worth knowing, or wrong; `advice` says how to mend it."""
+    """One result of a check: fine, worth knowing, or wrong; `advice` says how to fix it."""
 
     model_config = ConfigDict(frozen=True)
 
     level: Literal["ok", "note", "error"]
     subject: str
-    """What was looked at, in a word or two."""
+    """The subject of the check, in a word or two."""
     text: str
     advice: str = ""

@@ -1,4 +1,4 @@
-"""What is right and wrong with this installation. Asks no model and spends nothing."""
+"""Checks of this installation. They ask no model and spend nothing."""
 
 import re
 import site
@@ -48,7 +48,7 @@ def _sandbox() -> Finding:
 
 
 def _packages() -> Iterator[Finding]:
-    """Every requirement against what is installed."""
+    """Compare every requirement with the installed version."""
     needs = map(Requirement, requires("proc3s") or ())
     wanted = (need for need in needs if need.name != "proc3s" and need.marker != _FOR_DEVELOPERS)
     for need in {need.name: need for need in wanted}.values():
@@ -102,7 +102,7 @@ def _plugins(registry: Registry) -> Iterator[Finding]:
     failures = registry.plugins.failures
     for status in failures:
         text = f"({status.source}) did not load: {status.error}"
-        advice = "mend or uninstall it"
+        advice = "fix or uninstall it"
         yield Finding(level="error", subject=f"plugin {status.name}", text=text, advice=advice)
     loaded = len(registry.plugins.statuses) - len(failures)
     yield Finding(level="ok", subject="plugins", text=f"{loaded} loaded")

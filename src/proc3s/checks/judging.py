@@ -21,7 +21,7 @@ def judges(subject: Subject) -> Iterator[Fault]:
     """The judge of a task is not satisfied by the untouched scene."""
     for name, task in subject.spec.tasks.items():
         if not task.judge:
-            yield Fault(f"nobody judges the task {name}", error=False)
+            yield Fault(f"the task {name} has no judge", error=False)
             continue
         for seed in range(SEEDS):
             problem = subject.problem(name, seed)

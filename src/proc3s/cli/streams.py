@@ -1,4 +1,4 @@
-"""What a command prints reaches people and pipes, whatever they are: closed, full, gone, or not UTF-8."""
+"""Output of a command survives any terminal or pipe: closed, full, gone, or not UTF-8."""
 
 import codecs
 import contextlib
@@ -118,9 +118,9 @@ def exit_code(code: int, out: Output) -> int:
 
 @contextlib.contextmanager
 def document_alone() -> Iterator[None]:
-    """While it lasts `print_document` alone reaches stdout.
+    """Inside, only `print_document` reaches stdout.
 
-    What anybody else prints goes to stderr, be it a plugin, a library in C or a child process.
+    All other output goes to stderr, be it of a plugin, a library in C or a child process.
     """
     stdout = sys.stdout
     document = stdout.apart() if isinstance(stdout, Output) else stdout

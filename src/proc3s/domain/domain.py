@@ -64,7 +64,7 @@ class Domain:
         yield from ((f"tasks.{task.name}.judge.{i}", judge) for i, judge in enumerate(task.judge))
 
     def require(self, task: TaskSpec) -> None:
-        """Import all that a run of a task needs. Raises SpecError with all that is missing or unfit."""
+        """Import all targets that a run of a task needs. Raises SpecError with all unfit ones."""
         spec = self.spec
         worlds = {"world": spec.world, **({"execution": spec.execution} if spec.execution else {})}
         found: dict[str, Iterable[tuple[str, str]]] = {n: misfits(w, 1) for n, w in worlds.items()}

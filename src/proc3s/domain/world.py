@@ -47,7 +47,7 @@ class World(Generic[T]):
     """
 
     most_prefixes: ClassVar[int] = 256
-    """How many snapshots of beginnings of plans are kept; 0 where a step is cheaper than looking one up."""
+    """How many snapshots the prefix cache keeps; 0 where a step is cheaper than a look-up."""
 
     screens: ClassVar[tuple[ScreenSpec, ...]] = ()
     """Cheap tests that come with this world, for every domain in which it accepts plans."""
@@ -67,7 +67,7 @@ class World(Generic[T]):
 
     @property
     def snapshot(self) -> Any:
-        """What the next step starts from."""
+        """The snapshot that the next step starts from."""
         return self._snapshot
 
     def resume(self, snapshot: Any) -> None:
@@ -95,7 +95,7 @@ class World(Generic[T]):
             raise UsageError(f"the world of {self.domain.spec.name} has no disturbances to rehearse with")
 
     def flaws(self, state: State) -> Sequence[str]:
-        """Why no plan can begin from a state, a sentence each; asked before any plan is."""
+        """Why no plan can begin from a state, a sentence for each reason; asked before any draw."""
         return ()
 
     def place(self, state: State) -> None:
@@ -119,11 +119,11 @@ class World(Generic[T]):
         """Draw the world after a plan as a PNG file; a world without a picture writes none."""
 
     def facts(self) -> Sequence[str]:
-        """How true its models are, as measured, a line each: `proc3s check` prints them."""
+        """Measured accuracy of its models, one line each: `proc3s check` prints them."""
         return ()
 
     def close(self) -> None:
-        """Give up what the world holds."""
+        """Release simulators and files that the world holds."""
 
 
 def make_world(domain: Domain, target: Target | None = None) -> World[Any]:

@@ -26,7 +26,7 @@ _FREE: frozenset[LLMFault] = frozenset(
         "server",
     )
 )
-"""Faults after which no provider asks for money: it did not come to writing an answer."""
+"""Faults after which nothing is charged: the provider did not begin an answer."""
 
 
 class Budget(BaseModel):
@@ -86,14 +86,14 @@ def _sum(one: N | None, other: N | None) -> N | None:
 
 
 class Ledger(BaseModel):
-    """What counts against a budget, estimates where nobody knows better; and what is known to be spent."""
+    """What counts against a budget, with estimates for unknown figures; and what is known to be spent."""
 
     model_config = ConfigDict(frozen=True)
 
     calls: int = 0
     tokens: int = 0
     cost: float | None = 0.0
-    """US dollars; None once nobody knows the price of a call."""
+    """US dollars; None once the price of a call is unknown."""
     spent: Spent = Spent()
 
 
@@ -101,7 +101,7 @@ class Account:
     """Counts live calls against a budget; several threads may use it at once.
 
     A call is charged with an estimate before it is made, which its true figures replace where they are
-    known. So nothing is ever counted as free because a provider does not say what it cost. `record` gets the
+    known. So a call is never counted as free because its provider reports no cost. `record` gets the
     ledger whenever it changed after a call; an account that begins with it goes on from there.
     """
 
@@ -159,7 +159,7 @@ class Account:
             self._record(self._ledger)
 
     def _beyond(self, charged: Usage, cost: float | None) -> float | None:
-        """What a call cost more than was charged for it; None if nobody knows."""
+        """What a call cost beyond its estimate, US dollars; None if unknown."""
         return None if cost is None else cost - (self._cost_of(charged) or 0.0)
 
     def _add(self, calls: int, tokens: int, cost: float | None, spent: Spent) -> None:

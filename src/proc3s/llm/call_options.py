@@ -1,4 +1,4 @@
-"""Options that every LLM call takes, whatever the backend."""
+"""Options of a call that every backend takes."""
 
 from typing import Any
 

@@ -50,7 +50,7 @@ def _in_flight(
                 return
             try:
                 done.put((number, llm.complete(_alone(request, number))))
-            except BaseException as error:  # whatever ends a thread unheard would be waited for for ever
+            except BaseException as error:  # the caller waits for every thread: no error may get lost
                 done.put((number, error))
 
     try:

@@ -1,10 +1,10 @@
-"""Whether an answer is one: whole, cut off, held back, or nothing at all; and what its prompt became."""
+"""Whether an answer is complete, truncated, filtered or empty; and whether the provider cut its prompt."""
 
 from proc3s.llm.errors import LLMError
 from proc3s.llm.types import Candidate, Completion, Request, estimate_tokens
 
 _PARTS = frozenset({"length", "content_filter", "error"})
-"""Ends of answers that are not whole."""
+"""Finish reasons of incomplete answers."""
 _TOOLS = frozenset({"tool_calls", "function_call"})
 
 
@@ -15,7 +15,7 @@ def whole(completion: Completion) -> Completion | None:
 
 
 def uncut(completion: Completion) -> Completion:
-    """An answer that was there already, without candidates that are not whole. Raises LLMError."""
+    """A replayed answer without its incomplete candidates. Raises LLMError if none is complete."""
     kept = tuple(candidate for candidate in completion.candidates if not _cut(candidate))
     if not kept:
         raise cut_off(completion)
@@ -34,7 +34,7 @@ def cut_off(completion: Completion) -> LLMError:
 
 
 def room(request: Request, completion: Completion) -> int:
-    """Tokens that were too few."""
+    """The max_tokens that the answer exceeded."""
     return request.sampling.max_tokens or completion.usage.completion_tokens or 4096
 
 

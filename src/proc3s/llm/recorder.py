@@ -1,4 +1,4 @@
-"""Recordings: answers of language models that are kept, and which request each of them was given to."""
+"""Recordings: answers of language models, each with the request that it answers."""
 
 import json
 import re
@@ -51,9 +51,9 @@ class Recorder(LLM):
     """An LLM that passes requests on and keeps every answer in a cassette before it returns it.
 
     `path` is a cassette (`.jsonl`), or a folder of one cassette a task. One Recorder records one run; a run
-    that is recorded by several gives each of them the same `take`. It goes around `Patient`, so that what is
-    recorded is what the run got to see. Raises UsageError if the path cannot be written, LLMError if what is
-    there cannot be read.
+    that is recorded by several gives each of them the same `take`. It wraps `RetryingLLM`, so that it
+    records the answers that the run received. Raises UsageError if the path cannot be written, LLMError if
+    the cassettes there cannot be read.
     """
 
     def __init__(self, llm: LLM, path: Path, take: str | None = None) -> None:

@@ -1,4 +1,4 @@
-"""Asking a model: patience with faults that pass and with refused parameters, and within the budget."""
+"""Asks a model: retries transient errors, drops refused parameters, and stays within the budget."""
 
 import time
 from collections.abc import Callable, Iterator
@@ -20,11 +20,11 @@ _MOST_ATTEMPTS = 6
 
 
 class RetryingLLM(LLM):
-    """A backend with patience: passing faults are retried, a cut answer gets twice the room once.
+    """Retries transient errors of a backend; a truncated answer is retried once with twice max_tokens.
 
-    A parameter that the provider refuses is left out from then on. Only whole answers come out. `report`
-    hears of every failed attempt that another one follows, with the seconds until then; `name` is how the
-    backend was chosen.
+    A parameter that the provider refuses is left out from then on. Only complete answers are returned.
+    `report` is called for every failed attempt that is retried, with the seconds until then; `name` is the
+    backend's name on the command line.
     """
 
     def __init__(
@@ -44,12 +44,12 @@ class RetryingLLM(LLM):
         self.live = llm.live
 
     def prepare(self) -> None:
-        """Do what takes time before the first call: it is neither the model's time nor our patience."""
+        """Do slow preparations before the first call; they count neither as model time nor as waiting."""
         with self._for_people():
             self._llm.prepare()
 
     def complete(self, request: Request) -> Completion:
-        """The whole candidates of an answer. Raises LLMError or BudgetSpent."""
+        """The complete candidates of an answer. Raises LLMError or BudgetSpent."""
         if not self.live:
             return self._told(uncut(self._once(request)))
         self.prepare()
@@ -81,14 +81,14 @@ class RetryingLLM(LLM):
                 return self._as_asked(request, completion, failed)
 
     def _as_asked(self, request: Request, completion: Completion, failed: int) -> Completion:
-        """The completion with the parameters that were in effect, and the calls that it took to find them."""
+        """The completion with the parameters in effect, and the number of calls that finding them took."""
         lost = {*completion.dropped, *self._refused}
         dropped = tuple(name for name in Sampling.model_fields if name in lost & _sent(request))
         changes = {"dropped": dropped, "sampling": request.sampling.without(dropped)}
         return completion.model_copy(update={**changes, "attempts": completion.attempts + failed})
 
     def _told(self, completion: Completion) -> Completion:
-        """An answer that was there already, with a note on the options that did nothing for it."""
+        """A replayed answer, with a note on the call options that had no effect on it."""
         idle = self._options.model_fields_set
         if completion.sampling is not None:
             idle = idle - Sampling.model_fields.keys()  # a replay tells what was other then
@@ -129,7 +129,7 @@ class RetryingLLM(LLM):
 
     @contextmanager
     def _for_people(self) -> Iterator[None]:
-        """Whatever the backend raises becomes an LLMError without secrets; a mistake names its line."""
+        """Turn any exception of the backend into an LLMError without secrets; a bug in it names its line."""
         try:
             with blame(f"llm {self._name}"):
                 yield
@@ -175,7 +175,7 @@ def _passes(error: BaseException) -> bool:
 
 
 def _wait(state: "RetryCallState") -> float:
-    """What the provider asks for, else 0.5 s doubling with some jitter."""
+    """The wait that the provider asks for, else 0.5 s, doubling, with jitter."""
     import tenacity
 
     error = state.outcome.exception() if state.outcome else None

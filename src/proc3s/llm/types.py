@@ -104,7 +104,7 @@ class Completion(FrozenData):
     sampling: Sampling | None = None
     """The parameters in effect: what was asked for, without what was dropped."""
     notes: tuple[str, ...] = ()
-    """What a person should be told."""
+    """Notes for the user."""
 
     @property
     def text(self) -> str:
@@ -133,16 +133,16 @@ class LLM(ABC):
     """None if it is not known."""
 
     def prepare(self) -> None:  # noqa: B027 - there is mostly nothing to prepare
-        """Do what takes time before the first call, e.g. import a library; called any number of times.
+        """Do slow preparations before the first call, e.g. import a library; may be called repeatedly.
 
-        It counts neither as seconds of the model nor against the patience with it. Raises LLMError.
+        Counts neither as time of the model nor against the time limit of a call. Raises LLMError.
         """
 
     @abstractmethod
     def complete(self, request: Request) -> Completion:
         """One call. Raises LLMError, whose `fault` says whether trying again may help.
 
-        Fewer candidates than `request.sampling.n` may come back; the others are asked for one by one.
+        If fewer than `request.sampling.n` candidates come back, the missing ones are asked for one by one.
         """
 
 

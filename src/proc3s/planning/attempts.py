@@ -1,4 +1,4 @@
-"""What each program of a round came to."""
+"""The result of each program of a round."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -14,7 +14,7 @@ from proc3s.search.trial import Trial
 
 @dataclass(frozen=True)
 class Attempt:
-    """What one program came to: the accepted trial, or a plan to fall back on, and a diagnosis."""
+    """The result of one program: the accepted trial, or a plan to fall back on, and a diagnosis."""
 
     diagnosis: Diagnosis
     round: int = 0
@@ -32,7 +32,7 @@ class Attempt:
 
 @dataclass(frozen=True)
 class Round:
-    """The programs of a round and what they came to, in the same order."""
+    """The programs of a round and their results, in the same order."""
 
     proposals: tuple[Proposal, ...]
     attempts: tuple[Attempt, ...]

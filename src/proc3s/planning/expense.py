@@ -10,7 +10,7 @@ from proc3s.specs.parts import MethodSpec, PresetSpec
 from proc3s.wording import count
 
 _FEEDBACK = 2000
-"""Tokens that feedback of a round never takes, as far as we have seen."""
+"""Upper bound on the tokens of one round's feedback, as measured."""
 
 
 @dataclass(frozen=True)

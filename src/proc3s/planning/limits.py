@@ -1,4 +1,4 @@
-"""What `--limit KEY=VALUE` changes: limits of the box, and of the clock, which only break a run off."""
+"""Limits set by `--limit KEY=VALUE`: those of the box, and those of the clock, which only abort a run."""
 
 import dataclasses
 import math
@@ -17,7 +17,7 @@ Part = TypeVar("Part", Limits, "ClockLimits")
 
 @dataclass(frozen=True)
 class ClockLimits:
-    """Wall-clock seconds after which a run is broken off, None for no limit; no verdict depends on them."""
+    """Wall-clock seconds after which a run is aborted, None for no limit; no verdict depends on them."""
 
     round: float | None = None
     """From the answers of a round to the end of its search."""
@@ -26,7 +26,7 @@ class ClockLimits:
 
 
 def make_limits(given: Mapping[str, str]) -> tuple[Limits, ClockLimits]:
-    """Both kinds with what the command line changes. Raises UsageError."""
+    """Box and clock limits with the changes of the command line. Raises UsageError."""
     known = [*_names(Limits), *_names(ClockLimits)]
     for name in given:
         if name not in known:
@@ -35,12 +35,12 @@ def make_limits(given: Mapping[str, str]) -> tuple[Limits, ClockLimits]:
 
 
 def box_limits(given: Mapping[str, str]) -> dict[str, str]:
-    """Those of the box alone: they are part of what a run is, and those of the clock are not."""
+    """The box limits alone; they are part of a run's identity, clock limits are not."""
     return {name: value for name, value in given.items() if name in _names(Limits)}
 
 
 def clock_only(given: Mapping[str, str]) -> dict[str, str]:
-    """Those of the clock alone, which may change when a run goes on."""
+    """The clock limits alone; they may change when a run is resumed."""
     return {name: value for name, value in given.items() if name in _names(ClockLimits)}
 
 

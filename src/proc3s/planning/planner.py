@@ -1,9 +1,9 @@
 """The two-stage loop: a task becomes a program, a program becomes a plan that a world has accepted.
 
-Read this first. Stage 1: `propose` asks for programs (`conversation.py`). Stage 2: each program runs in its
-box (`sketch/`), a solver draws its open parameters (`rounds.py`, `solving.py`), every grounded plan is rolled
-out in the world (`problem.py`). If no sample is accepted, a diagnosis of the failures goes into the next
-question.
+Read this first. Stage 1: `propose` asks for programs (`proposals.py`). Stage 2: each program runs in its
+box (`sandbox/`), a solver draws its open parameters (`rounds.py`, `search/`), every grounded plan is rolled
+out in the world (`search/rollout.py`). If no sample is accepted, a diagnosis of the failures goes into the
+next question.
 """
 
 from collections.abc import Sequence
@@ -24,7 +24,7 @@ from proc3s.search.clock import STAGES, Clock
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a run came to. `feedback` counts feedback rounds; `error` is why it did not come to its end."""
+    """The result of a run. `feedback` counts feedback rounds; `error` is why it ended early."""
 
     rounds: tuple[Round, ...]
     proposals: tuple[Proposal, ...]
@@ -35,24 +35,24 @@ class Outcome:
 
     @property
     def attempts(self) -> tuple[Attempt, ...]:
-        """What every program of every round came to."""
+        """The results of all programs, round by round."""
         return tuple(attempt for round_ in self.rounds for attempt in round_.attempts)
 
 
 class Run:
-    """A run under way: the rounds so far, of which `past` were done in an earlier process."""
+    """A run under way: the rounds so far, of which `earlier` were done by another process."""
 
     def __init__(
-        self, setup: Setup, propose: Propose, emit: Emit, past: Sequence[Round], clock: Clock
+        self, setup: Setup, propose: Propose, emit: Emit, earlier: Sequence[Round], clock: Clock
     ) -> None:
         self._setup = setup
         self._propose = propose
         self._emit = emit
         self._clock = clock
         self._left = RoundBudget(setup.method.rounds, setup.preset.repairs)
-        self._rounds = list(past)
-        self._proposals = [proposal for round_ in past for proposal in round_.proposals]
-        for round_ in past:
+        self._rounds = list(earlier)
+        self._proposals = [proposal for round_ in earlier for proposal in round_.proposals]
+        for round_ in earlier:
             self._left.spend(repair=not round_.samples)
 
     def outcome(self) -> Outcome:
@@ -118,7 +118,7 @@ class Run:
 
 
 def plan(
-    setup: Setup, propose: Propose, emit: Emit, past: Sequence[Round] = (), clock: Clock | None = None
+    setup: Setup, propose: Propose, emit: Emit, earlier: Sequence[Round] = (), clock: Clock | None = None
 ) -> Outcome:
-    """Solve a problem; `past` are rounds that were done already, `clock` has the seconds that they took."""
-    return Run(setup, propose, emit, past, clock or Clock(*STAGES)).outcome()
+    """Solve a problem; `earlier` rounds were done already, `clock` has the seconds that they took."""
+    return Run(setup, propose, emit, earlier, clock or Clock(*STAGES)).outcome()

@@ -39,7 +39,7 @@ Propose: TypeAlias = Callable[[int, Sequence[Exchange]], Sequence[Proposal]]
 
 @dataclass(frozen=True)
 class Question:
-    """What every request of a run has in common; `seed` and number of candidates are in `sampling`."""
+    """The parts that all requests of a run share; `seed` and number of candidates are in `sampling`."""
 
     problem: Problem
     prompter: Prompter

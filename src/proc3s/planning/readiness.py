@@ -1,4 +1,4 @@
-"""What is certain before anybody is asked: that the parts of a run can be imported and made."""
+"""Checks before a model is asked: every part of a run can be imported and made."""
 
 from contextlib import closing
 

@@ -1,4 +1,4 @@
-"""What a run folder says of the rounds that were done, so that a run can go on in another process."""
+"""Reads the completed rounds of a run folder, so that another process can continue the run."""
 
 import itertools
 from collections.abc import Mapping, Sequence
@@ -20,7 +20,7 @@ from proc3s.search.clock import STAGES, Clock
 
 @dataclass(frozen=True)
 class LoggedAnswer:
-    """An answer of a run, and which request it was given to."""
+    """An answer of a run, with the request that it answers."""
 
     round: int
     candidate: int
@@ -30,9 +30,9 @@ class LoggedAnswer:
 
 @dataclass(frozen=True)
 class RunHistory:
-    """Rounds that ended without a solution, every answer that was given, and the seconds all took.
+    """The completed rounds of a run, all answers so far, and the seconds that they took.
 
-    Without arguments it is that of a run which begins.
+    Without arguments: the history of a new run.
     """
 
     id: str = field(default_factory=lambda: uuid4().hex[:8])
@@ -40,18 +40,18 @@ class RunHistory:
     rounds: tuple[Round, ...] = ()
     answers: tuple[LoggedAnswer, ...] = ()
     ledger: Ledger = field(default_factory=Ledger)
-    """What live calls cost."""
+    """The cost of the live calls so far."""
     versions: Mapping[str, str] = field(default_factory=dict)
     wall: dict[str, float] | None = None
     cpu: dict[str, float] | None = None
 
     def clock(self) -> Clock:
-        """A clock that goes on from there."""
+        """A clock that continues from these seconds."""
         return Clock(*STAGES, wall=self.wall, cpu=self.cpu)
 
 
 def past_of(run: Path) -> RunHistory:
-    """The past of a run that was broken off. Raises UsageError if it came to its end, or is no run."""
+    """The history of an interrupted run. Raises UsageError if the run has ended, or the folder has none."""
     events = read_events(run)
     ended = [event for event in events if event["event"] == "run_ended"]
     if ended and ended[-1]["summary"]["error"] is None:
@@ -71,7 +71,7 @@ def past_of(run: Path) -> RunHistory:
 
 
 def answers_of(events: Sequence[dict[str, Any]]) -> tuple[LoggedAnswer, ...]:
-    """Every answer in a log once, with the prompt that it was given to."""
+    """Every answer of a log, once, with its prompt."""
     prompts: dict[int, str] = {}
     found: dict[LoggedAnswer, None] = {}
     for event in events:
@@ -111,7 +111,7 @@ def _attempt(event: dict[str, Any], proposal: Proposal) -> Attempt:
 
 
 class ResumedLLM(LLM):
-    """Gives the answers that a run has already to exactly the prompts that they were given to."""
+    """Answers prompts that the interrupted run had answers to from its log, and asks for all others."""
 
     def __init__(self, llm: LLM, answers: Sequence[LoggedAnswer]) -> None:
         self._llm = llm
@@ -119,6 +119,6 @@ class ResumedLLM(LLM):
         self.live = llm.live
 
     def complete(self, request: Request) -> Completion:
-        """The answer of then, else one of now."""
+        """The logged answer to this prompt, else a new one."""
         key = (request.round, request.candidate, digest(request.messages))
         return self._known.get(key) or self._llm.complete(request)

@@ -4,7 +4,7 @@
 class RoundBudget:
     """How many questions are left: the first, the feedback rounds, and repairs of unusable programs.
 
-    A program that never came to be sampled costs a repair before it costs a round, as many in a row as the
+    A program that cannot be sampled costs a repair before it costs a round, as many in a row as the
     preset says.
     """
 
@@ -20,7 +20,7 @@ class RoundBudget:
         return min(self._feedback + 1 - self.left, self._feedback)
 
     def spend(self, repair: bool) -> None:
-        """A question was answered in vain; `repair`: its program could not be used at all."""
+        """Count a question that brought no accepted plan; `repair`: its program could not be used at all."""
         if repair and self._repaired < self._repairs:
             self._repaired += 1
         else:

@@ -1,4 +1,4 @@
-"""Options that were given and change nothing: whoever gives one should know."""
+"""Finds options that were given and have no effect, so that the user is told."""
 
 from collections.abc import Iterator
 
@@ -26,7 +26,7 @@ def unused(options: RunOptions, setup: Setup) -> Iterator[str]:
     if options.audit and problem.screens == "none":
         yield "--audit changes nothing: no screen rejects anything"
     if options.check_goal and not (problem.task.judge and problem.goal == problem.task.instruction):
-        yield "--check-goal changes nothing: nobody judges this instruction"
+        yield "--check-goal changes nothing: this instruction has no judge"
     if (options.llm_jobs or 1) > 1 and options.candidates == 1:
         yield "--llm-jobs changes nothing: one candidate is asked for"
 

@@ -165,7 +165,7 @@ class PluginManager:
             pass
 
     def _call(self, hook: str, **arguments: Any) -> Iterator[Any]:
-        """What each plugin answers; one that raises is recorded and never called again."""
+        """The answer of each plugin; one that raises is recorded and never called again."""
         for implementation in reversed(getattr(self._manager.hook, hook).get_hookimpls()):
             try:
                 with blame(f"plugin {implementation.plugin_name}"):

@@ -59,7 +59,7 @@ class Registry:
         return known[name]
 
     def _failed(self) -> str:
-        """Broken plugins may be why a name is missing."""
+        """Names the broken plugins, which may be why a name is missing."""
         return "".join(
             f"\nplugin {s.name} ({s.source}) did not load: {s.error}" for s in self.plugins.failures
         )

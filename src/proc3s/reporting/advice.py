@@ -63,7 +63,7 @@ def _always(diagnosis: Diagnosis) -> Failure | None:
 
 
 def _by_name_alone(program: ProgramRecord) -> bool:
-    """Whether samples miss by more or less only as they name this thing or that, whatever their numbers."""
+    """Whether the size of a miss depends only on the object that is named, not on any number."""
     missed: defaultdict[str, list[float]] = defaultdict(list)
     for text, margin in zip(program.samples.text, program.samples.margin, strict=True):
         if text is not None and margin is not None:

@@ -26,7 +26,7 @@ def explain(story: Story, folders: Sequence[Path]) -> str:
 
 def explained(story: Story, folders: Sequence[Path]) -> dict[str, Any]:
     """The same as data: what `proc3s explain --json` prints and what the template is given."""
-    words = ReportTemplates(folders)
+    templates = ReportTemplates(folders)
     return {
         "run": str(story.run),
         "task": story.task,
@@ -37,35 +37,35 @@ def explained(story: Story, folders: Sequence[Path]) -> dict[str, Any]:
         "ended": story.summary is not None,
         "error": story.error,
         "samples": sum(program.taken for program in story.programs),
-        "rounds": [_round(round_, story, words) for round_ in story.rounds],
+        "rounds": [_round(round_, story, templates) for round_ in story.rounds],
         "executed": _executed(story),
-        "look": looks(of_run(story), words),
+        "look": looks(of_run(story), templates),
     }
 
 
-def looks(pointers: Sequence[Pointer], words: ReportTemplates) -> list[dict[str, Any]]:
+def looks(pointers: Sequence[Pointer], templates: ReportTemplates) -> list[dict[str, Any]]:
     """Pointers with their sentences."""
     return [
         {
             "kind": p.kind,
-            "text": words.render("look.j2", kind=p.kind, facts=p.facts).strip(),
+            "text": templates.render("look.j2", kind=p.kind, facts=p.facts).strip(),
             "facts": p.facts,
         }
         for p in pointers
     ]
 
 
-def _round(round_: RoundRecord, story: Story, words: ReportTemplates) -> dict[str, Any]:
+def _round(round_: RoundRecord, story: Story, templates: ReportTemplates) -> dict[str, Any]:
     return {
         "round": round_.number,
         "origin": round_.completions[0].source if round_.completions else "none",
         "stale": any(completion.stale for completion in round_.completions),
         "notes": list(round_.notes),
-        "programs": [_program(program, story, words) for program in round_.programs],
+        "programs": [_program(program, story, templates) for program in round_.programs],
     }
 
 
-def _program(program: ProgramRecord, story: Story, words: ReportTemplates) -> dict[str, Any]:
+def _program(program: ProgramRecord, story: Story, templates: ReportTemplates) -> dict[str, Any]:
     diagnosis = program.diagnosis
     return {
         **program.model_dump(mode="json", include=_OF_PROGRAM),
@@ -74,7 +74,7 @@ def _program(program: ProgramRecord, story: Story, words: ReportTemplates) -> di
         "steps": [report.model_dump(mode="json") for report in program.steps],
         "nearest": program.nearest,
         "change": program.change.model_dump(mode="json") if program.change else None,
-        "look": looks(of_program(program, story), words),
+        "look": looks(of_program(program, story), templates),
     }
 
 

@@ -1,4 +1,4 @@
-"""The story of a run: its log read into rounds and programs, whatever of them is there.
+"""The history of a run: its log read into rounds and programs, as far as they are there.
 
 A run may have been broken off anywhere, resumed, or written by an earlier version: every part may be missing.
 """
@@ -22,7 +22,7 @@ Ending: TypeAlias = Literal["solved", "executed", "failed", "unusable", "unfinis
 
 
 class ProgramRecord(BaseModel):
-    """One program of a round and what it came to."""
+    """One program of a round and its result."""
 
     model_config = ConfigDict(frozen=True)
 

@@ -31,10 +31,10 @@ _LONGEST = 400_000
 
 def page(story: Story, folders: Sequence[Path]) -> str:
     """The page. Raises UsageError or SpecError for a template that is missing or does not render."""
-    words = ReportTemplates(folders, html=True)
-    css = _highlighting() + words.render("report.css")
+    templates = ReportTemplates(folders, html=True)
+    css = _highlighting() + templates.render("report.css")
     colors = charts.colors_of(sorted({v for p in story.programs for v in p.samples.violation if v}))
-    return words.render(
+    return templates.render(
         "report.j2",
         css=Markup(css),  # a file of the templates; what follows is what the policy allows
         css_hash=base64.b64encode(hashlib.sha256(css.encode()).digest()).decode(),

@@ -40,14 +40,14 @@ class RunFolder:
                 raise UsageError(f"the folder {path} is not empty; give another --out, or --resume {path}")
             self._log = (path / LOG).open("ab", buffering=0)
             fcntl.flock(self._log, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            _mend(path / LOG)
+            _repair(path / LOG)
         except BlockingIOError as error:
             raise UsageError(f"another process is at work in {path}") from error
         except OSError as error:
             raise UsageError(f"the run folder {path} cannot be written: {error.strerror}") from error
 
     def emit(self, event: Event) -> Unwritten | None:
-        """Append an event to the log and write the file that belongs to it; what to tell if that fails."""
+        """Append an event to the log and write its file; returns an error message if that fails."""
         if self._broken:
             return None
         try:
@@ -87,7 +87,7 @@ class RunFolder:
             self._write("summary.json", _pretty(event.summary))
 
     def _write(self, name: str, text: str) -> None:
-        """Whole or not at all: written beside and then renamed."""
+        """Write a file atomically: to a temporary name, then renamed."""
         part = self.path / f".{name}.part"
         part.write_text(text, encoding="utf-8", errors="backslashreplace")
         part.replace(self.path / name)
@@ -97,8 +97,8 @@ class RunFolder:
         self._log.close()
 
 
-def _mend(log: Path) -> None:
-    """Take away a last line that was cut off."""
+def _repair(log: Path) -> None:
+    """Remove an incomplete last line of the log."""
     data = log.read_bytes()
     if not data.endswith(b"\n"):
         os.truncate(log, data.rfind(b"\n") + 1)

@@ -23,7 +23,7 @@ def read_recordings(path: Path) -> list[Recording] | None:
 
 
 def _of_run(run: Path) -> list[Recording]:
-    """The answers of a run. What it was given again when it was resumed counts once."""
+    """The answers of a run. Answers that it was given again when it was resumed count once."""
     options = started(run)["options"]
     episode = {name: options[name] for name in ("task", "method", "seed")}
     prompts: dict[int, dict[str, Any]] = {}

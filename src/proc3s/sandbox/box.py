@@ -34,9 +34,9 @@ from proc3s.sandbox.text import Source, clean, message
 from proc3s.specs.domain import SamplerSpec
 
 _DRAWS = 8
-"""So many samples must share a fault that is the program's."""
+"""Samples that must share a fault for it to be one of the program itself."""
 _HANGS = 3
-"""So many must hang."""
+"""Samples that must hang for the program to be given up."""
 
 __all__ = ["BoxedSketch", "Limits", "Program", "prewarm"]
 
@@ -152,13 +152,13 @@ class BoxedSketch:
         return batch
 
     def _start(self) -> None:
-        """A worker of its own."""
+        """Start a worker for this sketch."""
         worker = launcher().take(Kind(self._limits.memory, self._limits.cpu, self._locked))
         self._channel = Channel(worker, self._source, self._limits)
         self._end = weakref.finalize(self, self._channel.close)
 
     def _renew(self) -> None:
-        """Another worker instead of one that hangs or has died."""
+        """Replace a worker that hangs or has died."""
         self.close()
         self._start()
         try:
@@ -186,9 +186,9 @@ class BoxedSketch:
         return parameters
 
     def _shared_problems(self, parameters: list[OpenParameter]) -> Problems:
-        """What is wrong with the plan in the middle of all ranges and with those of several random draws.
+        """Problems that the plan at the centre of the space and those of several random draws share.
 
-        What only some of them show is left to the samples: they say how often it occurs, and where.
+        Problems of some draws only are left to the samples, which show how often they occur, and where.
         """
         rng = np.random.default_rng(self._program.seed)
         draws, hung = (_DRAWS if parameters else 1), 0

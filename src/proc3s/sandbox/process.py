@@ -51,7 +51,7 @@ class Launcher:
             spares.append(self._start(kind))
 
     def take(self, kind: Kind) -> Worker:
-        """A worker of one's own: the spare if there is one. Raises SandboxUnavailable."""
+        """Take a worker: the spare if there is one. Raises SandboxUnavailable."""
         spares = self._spares.get(kind, deque())
         while spares:
             worker = spares.popleft()

@@ -25,7 +25,7 @@ Confirm: TypeAlias = Callable[[Trial], SketchError | None]
 
 
 ALIKE = 64
-"""A search ends if so many samples, the first, all raised the same exception at the same line."""
+"""A search ends if its first samples, this many, all raised the same exception at the same line."""
 
 
 _FIRST = (4, 16, ALIKE - 20)
@@ -106,7 +106,7 @@ class Evaluator:
                 return error.done, error
 
     def _settled(self, batch: PlanBatch, u: FloatArray) -> dict[int, Trial]:
-        """Trials of the samples that no world need see; a screen sees what those before it let pass."""
+        """Trials of the samples that need no world; each screen sees what the ones before it let pass."""
         rows, first = u.tolist(), self.samples
         settled: dict[int, Trial] = {}
         with self.clock("screens"):

@@ -16,5 +16,5 @@ class Executor(Protocol):
         ...
 
     def close(self) -> None:
-        """Give up worlds and workers."""
+        """Release worlds and workers."""
         ...

@@ -1,4 +1,4 @@
-"""Beginnings of plans that were carried out already, and where they led."""
+"""Caches the first steps of plans that were carried out, and the states they led to."""
 
 from collections import OrderedDict
 from collections.abc import Mapping
@@ -51,18 +51,18 @@ class Prefixes:
         return found
 
     def keep(self, before: Prefix | None, action: Action, prefix: Prefix) -> None:
-        """Remember where an action led; the prefix that was not used for longest goes."""
+        """Store where an action led; the least recently used prefix goes."""
         if self._size:
             self._known[before, action] = prefix
             if len(self._known) > self._size:
                 self._known.popitem(last=False)
 
     def failure(self, before: Prefix | None, action: Action) -> Failed | None:
-        """What is known to come of an action after a prefix, if that is a violation."""
+        """The violation that an action causes after a prefix, if it is known."""
         return self._failed.get((before, action))
 
     def keep_failure(self, before: Prefix | None, action: Action, failed: Failed) -> None:
-        """Remember what came of an action; the failure that was found first goes."""
+        """Store the violation of an action; the oldest failure goes."""
         if self._size:
             self._failed[before, action] = failed
             if len(self._failed) > self._size:

@@ -77,7 +77,7 @@ def carry_out(
 def judge(problem: Problem, final: State, plan: Plan) -> tuple[Score | None, str]:
     """All judges of the task must be satisfied; the reason of the first that is not, else of all."""
     if problem.goal != problem.task.instruction:
-        return None, "nobody judges an instruction of your own"
+        return None, "custom goals are not judged"
     scores = [_score(problem, target, final, plan) for target in problem.task.judge]
     if not scores:
         return None, "the task has no judge"

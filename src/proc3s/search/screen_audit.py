@@ -1,4 +1,4 @@
-"""The audit: some of what screens rejected is put to the world after all, to see who was right."""
+"""The audit: re-checks some plans that screens rejected in the world, to find wrong rejects."""
 
 import dataclasses
 from collections.abc import Callable
@@ -15,7 +15,7 @@ from proc3s.search.trial import Trial
 
 @dataclass(frozen=True)
 class Findings:
-    """What screens and the world said of the same rejects, each with its plan."""
+    """The verdicts of screens and world on the same rejected plans."""
 
     screened: tuple[Trial, ...] = ()
     world: tuple[Trial, ...] = ()
@@ -42,7 +42,7 @@ class Audit:
         self._chosen: list[Trial] = []
 
     def offer(self, plan: Callable[[], Plan], trial: Trial) -> None:
-        """A reject; its plan is only made if it is chosen."""
+        """Offer a rejected sample; its plan is only made if it is chosen."""
         self._offered += 1
         if len(self._chosen) < self._size:
             self._chosen.append(dataclasses.replace(trial, plan=plan()))

@@ -47,7 +47,7 @@ class Search:
 
     @property
     def over(self) -> bool:
-        """Whether going on is of no use: solved, stopped, or nothing left to ask."""
+        """Whether the search has ended: solved, stopped, or nothing left to ask."""
         return bool(self._exhausted or self.solution or self.halted or self.broken_off or self.alike)
 
     @property
@@ -69,7 +69,7 @@ class Search:
             self.halted = error
         except Proc3sError as error:
             self.broken_off = error
-        except KeyboardInterrupt:  # wherever it strikes, what was sampled counts
+        except KeyboardInterrupt:  # samples that were drawn before the interrupt count
             self.broken_off = Interrupted("interrupted")
 
     def _step(self, limit: int) -> None:

@@ -22,13 +22,13 @@ from types import FrameType
 from proc3s.errors import OutOfTime
 
 SECONDS = 60.0
-"""The limit where nobody sets one, s."""
+"""The default limit, s."""
 AGAIN = 1.0
 """An interruption that a skill swallows is repeated after so long, s."""
 NOTE = struct.Struct("<dd192s")
-"""Since when something is under way (0: nothing is) and for how long it may be, monotonic s; what it is."""
+"""Start of the watched step (0: none) and its limit, monotonic s; and the name of the step."""
 SUFFIX = ".over"
-"""Of the file, named by the process, that says why a watcher ended it."""
+"""Suffix of the file, named by the process, that says why a watcher ended it."""
 
 
 class Watch:

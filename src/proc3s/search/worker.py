@@ -1,4 +1,4 @@
-"""What one worker keeps to roll out plans of one problem: a world, stateful screens, known prefixes."""
+"""Rolls out plans of one problem in one worker: with its world, stateful screens and prefix cache."""
 
 import dataclasses
 import hashlib
@@ -18,7 +18,7 @@ from proc3s.search.trial import Trial
 from proc3s.search.watch import watch
 
 REHEARSAL = "rehearsal"
-"""Stands for the constraint of a violation that only a disturbed world finds."""
+"""Named as the constraint of a violation that only a disturbed world finds."""
 
 
 def _words(plan: Plan) -> list[int]:

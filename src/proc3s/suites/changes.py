@@ -15,7 +15,7 @@ from proc3s.suites.episode import Episode
 def changes(
     registry: Registry, before: Mapping[str, Any], now: Mapping[str, Any], episodes: Sequence[Episode]
 ) -> Iterator[str]:
-    """What of the suite, its options, the installed versions and the prompts is not as it was."""
+    """Differences in the suite, its options, the installed versions and the prompts since it began."""
     spec, changed = now["spec"], before.get("spec", {})
     if names := sorted(name for name in spec if spec[name] != changed.get(name)):
         yield f"the suite is not as it was: {', '.join(names)} changed"

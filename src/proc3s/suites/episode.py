@@ -35,7 +35,7 @@ class Episode(BaseModel):
     model: str | None = None
     """The model as the provider names it."""
     answered: str | None = None
-    """When the first answer was given, ISO 8601; null if nobody knows."""
+    """When the first answer was given, ISO 8601; null if unknown."""
     prompt_sha256: str | None = None
     """Of the first prompt."""
     dropped: tuple[str, ...] = ()
@@ -93,7 +93,7 @@ def episode_of(cell: Cell, summary: Summary, run: Path, run_dir: str, judged: bo
     given = Spent(
         prompt_tokens=None,
         completion_tokens=None,
-        cost=None if summary.llm_source == "manual" else 0.0,  # whoever gave it may have paid for it
+        cost=None if summary.llm_source == "manual" else 0.0,  # a stale answer may have been paid for
         latency=None,
     )
     usage = summary.usage if by_model else given

@@ -1,4 +1,4 @@
-"""What became of an episode, in one word: the same in tables, files, page, console and comparison."""
+"""The outcome of an episode in one word: the same in tables, files, page, console and comparison."""
 
 from collections import Counter
 from collections.abc import Iterable

@@ -22,10 +22,10 @@ THUMBNAIL = (260, 260)
 
 def page(results: Results, tables: Sequence[SuiteTable], folder: Path, templates: Sequence[Path]) -> str:
     """The page. Raises UsageError or SpecError for a template that is missing or does not render."""
-    words = ReportTemplates(templates, html=True)
-    css = words.render("report.css") + words.render("suite.css")
+    pages = ReportTemplates(templates, html=True)
+    css = pages.render("report.css") + pages.render("suite.css")
     charts = {"Success": success_bars(results), "Samples to a solution": curves(results)}
-    return words.render(
+    return pages.render(
         "suite.j2",
         css=Markup(css),
         css_hash=base64.b64encode(hashlib.sha256(css.encode()).digest()).decode(),

@@ -1,4 +1,4 @@
-"""What is certain before the first episode: that its parts are there, and that the model can be asked."""
+"""Checks before the first episode: all parts exist, and the model can be asked."""
 
 import itertools
 from collections import Counter

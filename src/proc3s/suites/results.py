@@ -1,4 +1,4 @@
-"""Episodes with the last word on each, a person's before the judge's, and in groups."""
+"""Episodes in groups, each with its final verdict: a person's before the judge's."""
 
 import csv
 from collections.abc import Mapping, Sequence
@@ -16,14 +16,14 @@ from proc3s.textfiles import read_text
 
 @dataclass(frozen=True)
 class Result:
-    """An episode and what a person said of it, if anyone did."""
+    """An episode and the verdict of a person, if there is one."""
 
     episode: Episode
     verdict: JudgeVerdict | None = None
 
     @property
     def success(self) -> bool | None:
-        """Whether the instruction is fulfilled; None of a task that nobody judges."""
+        """Whether the instruction is fulfilled; None for a task without a judge."""
         if self.verdict is not None:
             return self.verdict.reached
         return bool(self.episode.goal_reached) if self.episode.judged else None

@@ -1,7 +1,7 @@
 """Carries out the episodes of a suite: each is a `proc3s run` of its own, several at a time.
 
-A process of its own, so that whatever happens to one episode happens to it alone, and that those of several
-simulators share no thread. What is finished is in the store before the next begins.
+Each has a process of its own, so that a crash ends one episode alone, and simulators share no thread. A
+finished episode is in the store before the next begins.
 """
 
 import contextlib
@@ -94,7 +94,7 @@ class Runner:
             pool.shutdown()
 
     def _poor(self) -> bool:
-        """Whether another episode could not ask anything."""
+        """Whether the budget leaves nothing for another episode."""
         return self._broke or self._left() == 0.0 or self.hopeless
 
     @property
@@ -110,7 +110,7 @@ class Runner:
 
     @property
     def spent(self) -> str:
-        """US dollars in words, estimates where nobody knows better; unknown parts are said."""
+        """US dollars in words, with estimates for unknown figures; says which parts are unknown."""
         return total([*self._spent.values()], "{:.4f}")
 
     @property
@@ -136,14 +136,14 @@ class Runner:
         return outcome
 
     def _run(self, cell: Cell) -> EpisodeOutcome:
-        """One episode; whatever goes wrong around its process is why it is not finished."""
+        """One episode; an error around its process is recorded as the reason why it is unfinished."""
         try:
             return self._carried_out(cell)
         except (OSError, Proc3sError) as error:
             return Unfinished(cell, "crashed", str(error))
 
     def _carried_out(self, cell: Cell) -> EpisodeOutcome:
-        """One episode in a process of its own, begun anew or gone on with."""
+        """One episode in a process of its own, new or resumed."""
         run = self._store.folder / RUNS / cell.folder
         if (ended := _ended(run)) is not None:
             return self._episode(cell, ended, run)

@@ -18,8 +18,8 @@ from proc3s.suites.episode import Episode
 from proc3s.suites.outcomes import Unfinished
 
 FILE = "episodes.sqlite"
-PATIENCE = 30.0
-"""How long a process waits for another to finish writing, s."""
+LOCK_TIMEOUT = 30.0
+"""Seconds that a process waits for another one to finish writing."""
 
 _CELL = "task TEXT, method TEXT, preset TEXT, seed INTEGER"
 _KEY = "PRIMARY KEY (task, method, preset, seed)"
@@ -120,7 +120,7 @@ class Store:
     @contextmanager
     def _open(self) -> Iterator[sqlite3.Connection]:
         try:
-            with closing(sqlite3.connect(self._path, timeout=PATIENCE)) as connection, connection:
+            with closing(sqlite3.connect(self._path, timeout=LOCK_TIMEOUT)) as connection, connection:
                 yield connection
         except sqlite3.IntegrityError:
             raise

@@ -37,5 +37,5 @@ class DomainTests:
     def test_conformance(self, subject: Subject, check: Check) -> None:
         """No check finds an error."""
         errors = [f for f in findings(check, subject) if f.level == "error"]
-        told = [f"{f.where}: {f.text}\n  why: {f.why}\n  mend: {f.mend}" for f in errors]
+        told = [f"{f.where}: {f.text}\n  why: {f.why}\n  fix: {f.mend}" for f in errors]
         assert not errors, "\n".join(told)

@@ -62,7 +62,7 @@ def _print(out: Console, check: Check, findings: Sequence[CheckFinding], took: f
         out.print(f"         {escape(finding.text)}")
         out.print(f"           at    {escape(finding.where)}")
         out.print(f"           why   {escape(finding.why)}")
-        out.print(f"           mend  {escape(finding.mend)}")
+        out.print(f"           fix   {escape(finding.mend)}")
 
 
 def _found(wanted: str, plugins: Sequence[Path]) -> tuple[Registry, str]:

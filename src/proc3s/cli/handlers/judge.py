@@ -18,7 +18,7 @@ _ANSWERS = {"y": True, "yes": True, "n": False, "no": False}
 
 
 def step_through(folder: Path, everything: bool) -> None:
-    """Ask for every outcome that has a plan; verdicts are kept at once, tables made anew at the end."""
+    """Ask for every outcome that has a plan; verdicts are saved at once, tables rewritten at the end."""
     results, store = read_results(folder), Store(folder)
     todo = [r for r in results.all if r.episode.executed != "none" and (everything or r.verdict is None)]
     if unseen := _nothing_to_see(results):
