@@ -78,6 +78,7 @@ def _normals(outline: FloatArray) -> FloatArray:
     return np.stack([edges[:, 1], -edges[:, 0]], axis=1)
 
 
+# No scipy here: scenes are drawn without the extra, and Qhull takes three times as long for a block.
 def _hull(points: FloatArray) -> FloatArray:
     """The convex hull of points (n, 2), counter-clockwise."""
     ordered = sorted({(round(float(x), 9), round(float(y), 9)) for x, y in points})

@@ -5,6 +5,7 @@ import numpy as np
 from proc3s.domain.values import FloatArray
 
 
+# No scipy here: the core does without it, and its rotations differ in the last bit.
 def matrices(poses: FloatArray) -> FloatArray:
     """The matrices (..., 4, 4) of poses (..., 6)."""
     (cr, cp, cy), (sr, sp, sy) = (f(np.moveaxis(poses[..., 3:], -1, 0)) for f in (np.cos, np.sin))
