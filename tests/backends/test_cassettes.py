@@ -142,10 +142,10 @@ def test_where_an_answer_is_from_is_kept(tmp_path, source):
 
 def test_a_recorder_is_the_model_that_it_wraps(tmp_path):
     class Free(Model):
-        live, price = False, None
+        live = False
 
     recorders = [Recorder(model("x"), tmp_path / "c.jsonl") for model in (Model, Free)]
-    assert [(r.live, r.price) for r in recorders] == [(True, Model.price), (False, None)]
+    assert [r.live for r in recorders] == [True, False]
 
 
 def test_a_failed_call_is_not_recorded(tmp_path):

@@ -14,7 +14,7 @@ from packaging.requirements import Requirement
 from proc3s.checks.finding import Finding
 from proc3s.errors import Proc3sError, blame
 from proc3s.llm.config import ChosenLLM
-from proc3s.planning.llm_backend import Chosen, find_llm
+from proc3s.planning.llm_backend import Chosen, find_llm, open_llm
 from proc3s.plugins.registry import KINDS, Registry
 from proc3s.sandbox.box import BoxedSketch, Program
 from proc3s.sandbox.errors import SandboxUnavailable, SketchError
@@ -113,7 +113,7 @@ def _llms(registry: Registry, llm: ChosenLLM) -> Iterator[Finding]:
     chosen: Chosen | None = None
     try:
         chosen = find_llm(registry, llm.name, llm.options)
-        chosen.make()
+        open_llm(chosen)
         yield Finding(level="ok", subject="llm", text=f"{llm.name} ({llm.by})")
     except Proc3sError as error:
         yield Finding(level="error", subject="llm", text=f"{llm.name} ({llm.by}): {error}")

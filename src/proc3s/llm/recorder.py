@@ -14,7 +14,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from proc3s.errors import UsageError
 from proc3s.llm.cassette import Cassette
 from proc3s.llm.errors import LLMError
-from proc3s.llm.types import LLM, Completion, Message, Request, Sampling, digest
+from proc3s.llm.types import LLM, Completion, Message, Request, Sampling, WrappedLLM, digest
 from proc3s.redaction import redacted
 
 
@@ -47,7 +47,7 @@ class Recording(BaseModel):
     """`file:line`."""
 
 
-class Recorder(LLM):
+class Recorder(WrappedLLM):
     """An LLM that passes requests on and keeps every answer in a cassette before it returns it.
 
     `path` is a cassette (`.jsonl`), or a folder of one cassette a task. One Recorder records one run; a run
@@ -57,11 +57,10 @@ class Recorder(LLM):
     """
 
     def __init__(self, llm: LLM, path: Path, take: str | None = None) -> None:
-        self._llm = llm
+        super().__init__(llm)
         self._path = path
         self._take = take or secrets.token_hex(4)
         self._cassettes: dict[Path, Cassette] = {}
-        self.live = llm.live
         if path.is_dir() or not path.suffix:
             _prepare_folder(path)
         elif path.suffix == ".jsonl":

@@ -9,7 +9,7 @@ from proc3s.errors import SpecError, blame
 from proc3s.llm.budget import Account
 from proc3s.llm.completeness import cut_off, prompt_was_cut, refuse_empty, room, uncut, whole
 from proc3s.llm.errors import TRANSIENT, LLMError
-from proc3s.llm.types import LLM, Completion, Request, Sampling
+from proc3s.llm.types import LLM, Completion, Request, Sampling, WrappedLLM
 from proc3s.redaction import redacted
 
 if TYPE_CHECKING:
@@ -19,7 +19,7 @@ from proc3s.llm.call_options import CallOptions
 _MOST_ATTEMPTS = 6
 
 
-class RetryingLLM(LLM):
+class RetryingLLM(WrappedLLM):
     """Retries transient errors of a backend; a truncated answer is retried once with twice max_tokens.
 
     A parameter that the provider refuses is left out from then on. Only complete answers are returned.
@@ -35,13 +35,12 @@ class RetryingLLM(LLM):
         options: CallOptions,
         report: Callable[[Request, LLMError, float], None],
     ) -> None:
-        self._llm = llm
+        super().__init__(llm)
         self._name = name
         self._account = account
         self._options = options
         self._report = report
         self._refused: set[str] = set()
-        self.live = llm.live
 
     def prepare(self) -> None:
         """Do slow preparations before the first call; they count neither as model time nor as waiting."""

@@ -146,6 +146,18 @@ class LLM(ABC):
         """
 
 
+class WrappedLLM(LLM):
+    """An LLM around another one, which it prepares and costs as."""
+
+    def __init__(self, llm: LLM) -> None:
+        self._llm = llm
+        self.live = llm.live
+
+    def prepare(self) -> None:
+        """Prepare the other one."""
+        self._llm.prepare()
+
+
 def digest(messages: Sequence[Message]) -> str:
     """SHA-256 of the roles and texts of messages, as hexadecimal digits."""
     plain = json.dumps([[m.role, m.text] for m in messages], ensure_ascii=False)

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from pathlib import Path
 
 from pydantic import BaseModel
 
@@ -9,8 +10,10 @@ from proc3s.errors import Issue, SpecError, UsageError, blame, did_you_mean
 from proc3s.llm.budget import Account, Budget, Ledger
 from proc3s.llm.call_options import CallOptions
 from proc3s.llm.errors import LLMError
+from proc3s.llm.recorder import Recorder
 from proc3s.llm.retry import RetryingLLM
 from proc3s.llm.types import LLM, Price, Request
+from proc3s.planning.resume import ResumedLLM, RunHistory
 from proc3s.plugins.part_options import options_model, part_options
 from proc3s.plugins.registry import Registry
 from proc3s.specs.parts import LLMSpec
@@ -80,24 +83,31 @@ def _find(registry: Registry, name: str) -> tuple[LLMSpec, str]:
     return found, name
 
 
-def patient(
+def open_llm(
     chosen: Chosen,
-    budget: Budget,
-    ledger: Ledger,
-    record: Callable[[Ledger], None],
-    report: Callable[[Request, LLMError, float], None],
+    budget: Budget | None = None,
+    past: RunHistory | None = None,
+    record: Path | None = None,
+    charged: Callable[[Ledger], None] = lambda ledger: None,
+    failed: Callable[[Request, LLMError, float], None] = lambda request, error, wait: None,
 ) -> LLM:
-    """The backend with patience and a budget, of which some may be spent already.
+    """The backend as a run asks it: with retries and a budget, recorded in `record`, after what was answered
+    and spent in the past.
 
-    Raises LLMError if the backend cannot be made, UsageError if there is a limit in dollars and nobody knows
-    what a call costs.
+    `charged` hears what calls cost, `failed` of attempts that another one follows. Raises LLMError if the
+    backend cannot be made, UsageError if a limit in dollars cannot be kept or `record` not be written.
     """
+    budget, past = budget or Budget(), past or RunHistory()
     llm, price = chosen.make(), chosen.call.price
     if llm.live and budget.max_cost is not None:
         price = price or _known_price(chosen, llm)
-        if ledger.cost is None:
+        if past.ledger.cost is None:
             raise UsageError("nobody knows what the calls so far have cost, so --max-cost cannot be kept")
-    return RetryingLLM(llm, chosen.name, Account(budget, price, ledger, record), chosen.call, report)
+    account = Account(budget, price, past.ledger, charged)
+    llm = RetryingLLM(llm, chosen.name, account, chosen.call, failed)
+    if record is not None:
+        llm = Recorder(llm, record, past.id)
+    return ResumedLLM(llm, past.answers)
 
 
 def price_of(chosen: Chosen) -> Price | None:

@@ -11,7 +11,7 @@ from proc3s.domain.values import Action
 from proc3s.errors import UsageError
 from proc3s.feedback.report import Diagnosis
 from proc3s.llm.budget import Ledger
-from proc3s.llm.types import LLM, Completion, Request, digest
+from proc3s.llm.types import LLM, Completion, Request, WrappedLLM, digest
 from proc3s.planning.attempts import Attempt, Round
 from proc3s.planning.proposals import Proposal, proposals_of
 from proc3s.runs.reading import read_events, started
@@ -110,13 +110,12 @@ def _attempt(event: dict[str, Any], proposal: Proposal) -> Attempt:
     )
 
 
-class ResumedLLM(LLM):
+class ResumedLLM(WrappedLLM):
     """Answers prompts that the interrupted run had answers to from its log, and asks for all others."""
 
     def __init__(self, llm: LLM, answers: Sequence[LoggedAnswer]) -> None:
-        self._llm = llm
+        super().__init__(llm)
         self._known = {(a.round, a.candidate, a.sha256): a.completion for a in answers}
-        self.live = llm.live
 
     def complete(self, request: Request) -> Completion:
         """The logged answer to this prompt, else a new one."""

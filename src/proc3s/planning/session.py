@@ -9,15 +9,14 @@ from pathlib import Path
 from proc3s.errors import UsageError
 from proc3s.llm.budget import Ledger, Spent, spent_on
 from proc3s.llm.errors import LLMError
-from proc3s.llm.recorder import Recorder
 from proc3s.llm.types import Request, Source
 from proc3s.planning.expense import bound_of, in_words
-from proc3s.planning.llm_backend import find_llm, patient, price_of
+from proc3s.planning.llm_backend import find_llm, open_llm, price_of
 from proc3s.planning.options import RunOptions
 from proc3s.planning.planner import Outcome, plan
 from proc3s.planning.proposals import Propose, Question, ask_llm, given_program
 from proc3s.planning.readiness import check_parts
-from proc3s.planning.resume import ResumedLLM, RunHistory
+from proc3s.planning.resume import RunHistory
 from proc3s.planning.setup import make_problem, make_prompter, make_setup
 from proc3s.planning.summary import Summary, summarize
 from proc3s.planning.unused_options import unused, unused_budget
@@ -167,15 +166,13 @@ class Session:
             options.llm_jobs or options.candidates,
         )
         question.prompter.rehearse(self._problem)
-        llm = patient(chosen, options.budget, self._past.ledger, self._charged, self._call_failed)
+        llm = open_llm(chosen, options.budget, self._past, options.record, self._charged, self._call_failed)
         llm.prepare()
         if not llm.live:
             self.notices += unused_budget(options.budget, chosen.name)
         elif not self._past.rounds:
             self.expense = in_words(bound_of(question, price_of(chosen)), options.budget)
-        if options.record is not None:
-            llm = Recorder(llm, options.record, self._past.id)
-        return lambda: ask_llm(ResumedLLM(llm, self._past.answers), question, self._emit)
+        return lambda: ask_llm(llm, question, self._emit)
 
     def _propose(self) -> Propose:
         given = self._job.given

@@ -5,9 +5,9 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 
 from proc3s.errors import Proc3sError, SpecError, UsageError
-from proc3s.llm.budget import Budget, Ledger
+from proc3s.llm.budget import Budget
 from proc3s.planning.expense import Bound, bound_of
-from proc3s.planning.llm_backend import Chosen, find_llm, patient, price_of
+from proc3s.planning.llm_backend import Chosen, find_llm, open_llm, price_of
 from proc3s.planning.options import RunOptions, key_values
 from proc3s.planning.proposals import Question
 from proc3s.planning.readiness import check_parts
@@ -29,7 +29,7 @@ def check_order(registry: Registry, order: Order, cells: Sequence[Cell]) -> Boun
         return None
     budget = Budget(max_cost=order.max_cost) if order.max_cost else Budget()
     chosen = find_llm(registry, order.llm, key_values(list(order.llm_options)))
-    llm = patient(chosen, budget, Ledger(), lambda ledger: None, lambda request, error, wait: None)
+    llm = open_llm(chosen, budget)
     price, bound = price_of(chosen) if llm.live else None, Bound()
     for task, of_task in itertools.groupby(sorted(cells), key=lambda cell: cell.task):
         try:

@@ -1,7 +1,9 @@
 """A benchmark from the command line: what is wanted, measured one by one, as a table and as files."""
 
+import itertools
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Generator, Iterator, Mapping, Sequence
+from contextlib import closing
 from dataclasses import asdict, dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -96,39 +98,37 @@ def run_bench(wanted: Wanted, out: Path | None, as_json: bool) -> None:
     """Measure, print and write. What is done when it is interrupted is kept. Raises UsageError."""
     registry = open_registry(wanted.plugins)
     cases, ways = _chosen(registry, wanted)
-    folder = made_folder(out, wanted.suite)
+    folder, results = made_folder(out, wanted.suite), Results([], [])
     with alone_in(folder):
-        _run_in(folder, registry, cases, ways, wanted, as_json)
-
-
-def _run_in(
-    folder: Path,
-    registry: Registry,
-    cases: Sequence[Case],
-    ways: Sequence[SearchVariant],
-    wanted: Wanted,
-    as_json: bool,
-) -> None:
-    results = Results([], [])
-    stopped: Proc3sError | None = None
-    progress = Console(stderr=True, quiet=as_json, highlight=False)
-    try:
-        with Bench(registry, ways, wanted.samples) as bench:
-            for note in _measure(bench, cases, wanted, results):
-                progress.print(note)
-    except KeyboardInterrupt:
-        stopped = Interrupted("interrupted; what was measured is kept")
-    except Proc3sError as error:
-        stopped = error
-    document = results.document(wanted, stopped)
-    write(folder / "results.json", json.dumps(document, indent=2, ensure_ascii=False) + "\n")
-    write(folder / "results.md", _markdown(results))
-    if as_json:
-        print_document(json.dumps(document, indent=2, ensure_ascii=False))
-    else:
-        _print(results, folder)
+        stopped = go_through(_measure(registry, cases, ways, wanted, results), as_json)
+        write(folder / "results.md", _markdown(results))
+        deliver(folder, results.document(wanted, stopped), as_json)
+        if not as_json:
+            _print(results, folder)
     if stopped is not None:
         raise stopped
+
+
+def go_through(notes: Generator[str], quiet: bool) -> Proc3sError | None:
+    """Print the notes of a measurement as it goes on; gives the error or interruption that ended it."""
+    progress = Console(stderr=True, quiet=quiet, highlight=False)
+    try:
+        with closing(notes):
+            for note in notes:
+                progress.print(note)
+    except KeyboardInterrupt:
+        return Interrupted("interrupted; what was measured is kept")
+    except Proc3sError as error:
+        return error
+    return None
+
+
+def deliver(folder: Path, document: Mapping[str, Any], as_json: bool) -> None:
+    """Write the document of a measurement, and print it if that is what it was called for."""
+    text = json.dumps(document, indent=2, ensure_ascii=False)
+    write(folder / "results.json", text + "\n")
+    if as_json:
+        print_document(text)
 
 
 def _chosen(registry: Registry, wanted: Wanted) -> tuple[list[Case], list[SearchVariant]]:
@@ -159,16 +159,20 @@ def made_folder(out: Path | None, suite: str) -> Path:
     return out
 
 
-def _measure(bench: Bench, cases: Sequence[Case], wanted: Wanted, results: Results) -> Iterator[str]:
+def _measure(
+    registry: Registry,
+    cases: Sequence[Case],
+    ways: Sequence[SearchVariant],
+    wanted: Wanted,
+    results: Results,
+) -> Generator[str]:
     """Fill the results; tells what it does next."""
-    for case in cases:
-        for seed in range(wanted.seeds):
+    with Bench(registry, ways, wanted.samples) as bench:
+        for case, seed in itertools.product(cases, range(wanted.seeds)):
             yield f"{case.label} seed {seed}"
-            for measurement in bench.search(case, seed):
-                results.searches.append(measurement)
+            results.searches.extend(bench.search(case, seed))
             if wanted.throughput:
-                for measurement in bench.throughput(case, seed, wanted.throughput):
-                    results.throughput.append(measurement)
+                results.throughput.extend(bench.throughput(case, seed, wanted.throughput))
 
 
 def write(path: Path, text: str) -> None:

@@ -1,7 +1,7 @@
 """The field test from the command line, as a table and as files."""
 
-import json
-from collections.abc import Sequence
+import itertools
+from collections.abc import Generator, Sequence
 from dataclasses import asdict
 from datetime import UTC, datetime
 from pathlib import Path
@@ -12,9 +12,8 @@ from rich.table import Table
 
 from proc3s.benchmark.cases import Case, find_cases
 from proc3s.benchmark.execution_test import FieldTest, field_tests, judged
-from proc3s.cli.handlers.bench import Wanted, made_folder, write
-from proc3s.cli.streams import print_document
-from proc3s.errors import Interrupted, Proc3sError
+from proc3s.cli.handlers.bench import Wanted, deliver, go_through, made_folder
+from proc3s.errors import Proc3sError
 from proc3s.plugins.registry import Registry, open_registry
 from proc3s.plugins.versions import versions
 from proc3s.suites.lock import alone_in
@@ -26,34 +25,22 @@ def run_field_test(wanted: Wanted, out: Path | None, as_json: bool) -> None:
     """Test, print and write. What is done when it is interrupted is kept. Raises UsageError."""
     registry = open_registry(wanted.plugins)
     cases = judged(find_cases(registry, wanted.tasks), registry)
-    folder = made_folder(out, wanted.suite)
+    folder, done = made_folder(out, wanted.suite), list[FieldTest]()
     with alone_in(folder):
-        _run_in(folder, registry, cases, wanted, as_json)
-
-
-def _run_in(folder: Path, registry: Registry, cases: Sequence[Case], wanted: Wanted, as_json: bool) -> None:
-    done: list[FieldTest] = []
-    stopped: Proc3sError | None = None
-    progress = Console(stderr=True, quiet=as_json, highlight=False)
-    try:
-        for case in cases:
-            for seed in range(wanted.seeds):
-                progress.print(f"{case.label} seed {seed}")
-                robust = tuple(dict.fromkeys((0, wanted.robust)))
-                for test in field_tests(registry, case, seed, robust, wanted.times, wanted.samples):
-                    done.append(test)
-    except KeyboardInterrupt:
-        stopped = Interrupted("interrupted; what was measured is kept")
-    except Proc3sError as error:
-        stopped = error
-    document = _document(wanted, done, stopped)
-    write(folder / "results.json", json.dumps(document, indent=2, ensure_ascii=False) + "\n")
-    if as_json:
-        print_document(json.dumps(document, indent=2, ensure_ascii=False))
-    else:
-        _print(done, folder)
+        stopped = go_through(_test(registry, cases, wanted, done), as_json)
+        deliver(folder, _document(wanted, done, stopped), as_json)
+        if not as_json:
+            _print(done, folder)
     if stopped is not None:
         raise stopped
+
+
+def _test(registry: Registry, cases: Sequence[Case], wanted: Wanted, done: list[FieldTest]) -> Generator[str]:
+    """Fill the tests that are done; tells what it does next."""
+    robust = tuple(dict.fromkeys((0, wanted.robust)))
+    for case, seed in itertools.product(cases, range(wanted.seeds)):
+        yield f"{case.label} seed {seed}"
+        done.extend(field_tests(registry, case, seed, robust, wanted.times, wanted.samples))
 
 
 def _document(wanted: Wanted, done: Sequence[FieldTest], error: Proc3sError | None) -> dict[str, Any]:
