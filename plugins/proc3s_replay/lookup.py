@@ -3,7 +3,7 @@
 import re
 import shlex
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -60,21 +60,30 @@ class Lookup:
     def _chosen(self, matching: Sequence[Recording], request: Request, *notes: str) -> Completion:
         """The answer of the wanted repeat: in every round that of the same recorded run, if it has one."""
         takes = _takes(self.recordings)
+        wanted = self._wanted_take(takes, matching, request)
+        for recording in matching:
+            if takes[recording.where] == wanted:
+                return _replayed(recording, request, *notes)
+        if self.repeat < len(matching):
+            other = f"is of another run than repeat={self.repeat} began with, which has none"
+            return _replayed(matching[self.repeat], request, *notes, other)
+        raise self._too_few(len(matching), request)
+
+    def _wanted_take(
+        self, takes: Mapping[str, Take], matching: Sequence[Recording], request: Request
+    ) -> Take | None:
+        """The run that the wanted repeat is of, counted among those that began with the same prompt."""
         openings: dict[Take, str] = {}
         for recording in self.recordings:
             if _episode(recording) == _episode(request):
                 openings.setdefault(takes[recording.where], recording.sha256)
-        begun = {openings[takes[recording.where]] for recording in matching}
-        alike = [take for take, sha256 in openings.items() if sha256 in begun]
-        wanted = alike[self.repeat] if self.repeat < len(alike) else None
-        own = [recording for recording in matching if takes[recording.where] == wanted]
-        if own:
-            return _replayed(own[0], request, *notes)
-        if self.repeat < len(matching):
-            other = f"is of another run than repeat={self.repeat} began with, which has none"
-            return _replayed(matching[self.repeat], request, *notes, other)
-        there = "one answer" if len(matching) == 1 else f"{len(matching)} answers"
-        raise LLMError(
+        prompts = {openings[takes[recording.where]] for recording in matching}
+        alike = [take for take, sha256 in openings.items() if sha256 in prompts]
+        return alike[self.repeat] if self.repeat < len(alike) else None
+
+    def _too_few(self, answers: int, request: Request) -> LLMError:
+        there = "one answer" if answers == 1 else f"{answers} answers"
+        return LLMError(
             f"{self.path} has {there} for {_what(request)}; they are counted from 0, so there is none with "
             f"repeat={self.repeat}",
             "no_answer",

@@ -1,11 +1,12 @@
 """Gaussian noise around a fixed plan, as a sketch of its own: one dimension for every perturbed number."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from statistics import NormalDist
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from proc3s.domain.plan_batch import WIDTH, Parameter, PlanBatch
 from proc3s.domain.samplers import Space
@@ -39,19 +40,16 @@ class Jitter:
     """
 
     def __init__(self, batch: PlanBatch) -> None:
+        params = [param for skill in batch.skill for param in batch.signatures[skill].params]
+        columns = [param for param in params for _ in range(WIDTH[param.type])]
+        noise = np.concatenate([np.empty(0), *map(_noise, params)])
         self._batch = batch
-        params = [p for k in batch.skill for p in batch.signatures[k].params]
-        starts = np.cumsum([0, *(WIDTH[p.type] for p in params)])[:-1].tolist()
-        columns = [p for p in params for _ in range(WIDTH[p.type])]
-        ranged = [p.type in ("float", "point") for p in columns]
-        self._low = np.where(ranged, [p.low for p in columns], -np.inf)
-        self._high = np.where(ranged, [p.high for p in columns], np.inf)
-        self._rigid = [at for p, at in zip(params, starts, strict=True) if p.type in ("pose", "grasp")]
-        self._source = np.arange(len(columns))
-        for repeat in _repeats(batch):
-            self._source[repeat.again + _SIX] = repeat.first + _SIX
-        noise = np.array([scale for p in params for scale in _noise(p)], float)
-        self._own = np.flatnonzero((noise > 0) & (self._source == np.arange(len(columns))))
+        self._low, self._high = _range(columns)
+        self._rigid = [at for param, at in _placed(params) if param.type in ("pose", "grasp")]
+        self._source = _source(batch, len(columns))
+        """For each number, the one whose offset it takes: its own, but for a grasp that stands again."""
+        own = self._source == np.arange(len(columns))
+        self._own = np.flatnonzero((noise > 0) & own)
         self.space = Space({f"number_{i}": Normal(float(noise[i])) for i in self._own.tolist()})
 
     def plans(self, u: FloatArray, first: int = 0) -> PlanBatch:
@@ -84,13 +82,33 @@ class Repeat(NamedTuple):
 def _repeats(batch: PlanBatch) -> Iterator[Repeat]:
     known: dict[tuple[bytes, bytes], int] = {}
     for action, skill in enumerate(batch.skill.tolist()):
-        params, at = batch.signatures[skill].params, int(batch.offset[action])
-        starts = np.cumsum([at, *(WIDTH[p.type] for p in params)])[:-1].tolist()
-        named = [start for p, start in zip(params, starts, strict=True) if p.type == "object"]
-        for start in (start for p, start in zip(params, starts, strict=True) if p.type == "grasp"):
+        placed = list(_placed(batch.signatures[skill].params, int(batch.offset[action])))
+        named = [at for param, at in placed if param.type == "object"]
+        for start in (at for param, at in placed if param.type == "grasp"):
             key = batch.values[named].tobytes(), batch.values[start + _SIX].tobytes()
             if (first := known.setdefault(key, start)) != start:
                 yield Repeat(first, start)
+
+
+def _placed(params: Sequence[Parameter], at: int = 0) -> Iterator[tuple[Parameter, int]]:
+    """Every parameter with the column of its first number; they stand one after another, from `at` on."""
+    for param in params:
+        yield param, at
+        at += WIDTH[param.type]
+
+
+def _source(batch: PlanBatch, width: int) -> NDArray[np.int_]:
+    source = np.arange(width)
+    for repeat in _repeats(batch):
+        source[repeat.again + _SIX] = repeat.first + _SIX
+    return source
+
+
+def _range(columns: Sequence[Parameter]) -> tuple[FloatArray, FloatArray]:
+    """The least and the greatest value of each number; only numbers and points have a range."""
+    ranged = [param.type in ("float", "point") for param in columns]
+    low = np.where(ranged, [param.low for param in columns], -np.inf)
+    return low, np.where(ranged, [param.high for param in columns], np.inf)
 
 
 def _noise(param: Parameter) -> FloatArray:
