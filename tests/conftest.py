@@ -13,7 +13,9 @@ import pytest
 from typer.testing import CliRunner
 
 from provider import running
+from stranger import with_the_wheel
 
+os.environ.pop("PYTEST_ADDOPTS", None)  # meant for this run, not for a pytest that a test starts
 collect_ignore = ["example_plugin"]  # a package of its own, tested where it is installed
 
 
@@ -36,6 +38,14 @@ def provider():
     """A server on this machine that speaks the protocols of OpenAI and Anthropic, and does as it is told."""
     with running() as server:
         yield server
+
+
+@pytest.fixture(scope="session")
+def stranger(tmp_path_factory):
+    """A folder whose `venv` has the wheel and what it depends on, and nothing else."""
+    folder = tmp_path_factory.mktemp("stranger")
+    with_the_wheel(folder)
+    return folder
 
 
 @pytest.fixture

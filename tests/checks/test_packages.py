@@ -2,17 +2,16 @@
 environments, beside the wheel."""
 
 import json
-import os
 import shutil
-import subprocess
 import sys
-import venv
 from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).parents[2]
-EXAMPLE = ROOT / "tests" / "example_plugin"
+from stranger import call, install, on_top_of
+
+EXAMPLE = Path(__file__).parents[1] / "example_plugin"
+PROC3S = ("venv/bin/python", "-P", "-m", "proc3s")
 
 
 def lines(*paths):
@@ -53,36 +52,35 @@ def test_a_begun_domain_is_a_sound_one(cli, here, monkeypatch):
 
 
 @pytest.fixture(scope="module")
-def clean(tmp_path_factory):
+def author(stranger, tmp_path_factory):
     """An environment with the wheel, pytest, the example, and one package of every kind."""
     folder = tmp_path_factory.mktemp("author")
-    call(sys.executable, "-m", "build", "--wheel", "--outdir", folder, ROOT, cwd=folder)
-    venv.create(folder / "venv", with_pip=True)
-    pip = (folder / "venv/bin/pip", "install", "-q")
-    call(*pip, next(folder.glob("*.whl")), "pytest>=8.2", cwd=folder)
+    on_top_of(stranger, folder)
     for kind in ("domain", "solver", "llm"):
-        call(folder / "venv/bin/proc3s", "new", kind, f"my_{kind}", cwd=folder)
+        call(stranger / "venv/bin/proc3s", "new", kind, f"my_{kind}", cwd=folder)
     packages = [f"./my_{kind}" for kind in ("domain", "solver", "llm")]
-    call(*pip, EXAMPLE, *packages, cwd=folder)
+    install(folder, "pytest>=8.2", EXAMPLE, *packages)
     return folder
 
 
 @pytest.mark.slow
 @pytest.mark.xdist_group("wheel")
 class TestInstalled:
-    def test_their_tests_pass(self, clean):
-        shutil.copytree(EXAMPLE, clean / "push")  # outside the repository, whose options are its own
-        tests = [clean / "push/tests", *(clean / f"my_{kind}" for kind in ("domain", "solver", "llm"))]
+    def test_their_tests_pass(self, author):
+        shutil.copytree(EXAMPLE, author / "push")  # outside the repository, whose options are its own
+        tests = [author / "push/tests", *(author / f"my_{kind}" for kind in ("domain", "solver", "llm"))]
         for folder in tests:
-            call(clean / "venv/bin/python", "-m", "pytest", "-q", "-p", "no:cacheprovider", folder, cwd=clean)
+            call(
+                author / "venv/bin/python", "-m", "pytest", "-q", "-p", "no:cacheprovider", folder, cwd=author
+            )
 
-    def test_they_load_and_are_sound(self, clean):
-        call(clean / "venv/bin/proc3s", "plugins", "--strict", cwd=clean)
+    def test_they_load_and_are_sound(self, author):
+        call(*PROC3S, "plugins", "--strict", cwd=author)
         for name in ("push", "my_domain"):
-            call(clean / "venv/bin/proc3s", "check", name, cwd=clean)
+            call(*PROC3S, "check", name, cwd=author)
 
-    def test_they_work_together(self, clean):
-        answers = clean / "answers"
+    def test_they_work_together(self, author):
+        answers = author / "answers"
         answers.mkdir()
         text = (EXAMPLE / "proc3s_push/answers/gather.proc3s.md").read_text().split("---", 2)[2]
         (answers / "push-gather.proc3s.md").write_text(text)
@@ -94,17 +92,8 @@ class TestInstalled:
             "--plugin",
             EXAMPLE / "short_pushes.py",
         )
-        run = (clean / "venv/bin/proc3s", "run", "push/gather", *options, "--json")
-        summary = json.loads(call(*run, cwd=clean))
+        run = (*PROC3S, "run", "push/gather", *options, "--json")
+        summary = json.loads(call(*run, cwd=author))
         assert (summary["solved"], summary["goal_reached"], summary["solver"]) == (True, True, "annealed")
-        shown = call(clean / "venv/bin/proc3s", "show", "push", *options[-2:], cwd=clean)
+        shown = call(*PROC3S, "show", "push", *options[-2:], cwd=author)
         assert "a push is longer than 0.8 m" in shown
-
-
-def call(*command, cwd):
-    environment = {name: v for name, v in os.environ.items() if name not in ("PYTHONPATH", "VIRTUAL_ENV")}
-    done = subprocess.run(
-        [str(part) for part in command], cwd=cwd, env=environment, capture_output=True, text=True, timeout=900
-    )
-    assert done.returncode == 0, f"{command}\n{done.stdout}\n{done.stderr}"
-    return done.stdout

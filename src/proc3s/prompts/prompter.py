@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -81,7 +82,7 @@ class Prompter:
 
     def _render(self, name: str, problem: Problem, **variables: Any) -> str:
         try:
-            template = _environment(self.folders).get_template(name)
+            template = self._environment.get_template(name)
             with blame("template", Exception):  # a function of `prompt_context` may end the process
                 return template.render(**self.context, **self._shared(problem), **variables)
         except jinja2.TemplateNotFound as error:
@@ -92,6 +93,19 @@ class Prompter:
         except Exception as error:  # a template may raise whatever its expressions raise
             raised = error.__cause__ if isinstance(error, SpecError) else error
             raise SpecError([Issue(_template_line(raised or error, name), "", str(error))]) from error
+
+    @cached_property
+    def _environment(self) -> ImmutableSandboxedEnvironment:
+        environment = ImmutableSandboxedEnvironment(
+            loader=jinja2.FileSystemLoader(self.folders, encoding="utf-8-sig"),
+            undefined=jinja2.StrictUndefined,
+            trim_blocks=True,
+            lstrip_blocks=True,
+            keep_trailing_newline=True,
+            autoescape=False,
+        )
+        environment.filters |= {"state_text": state_text, "portion": portion, "plain": plain}
+        return environment
 
     def _shared(self, problem: Problem) -> dict[str, Any]:
         """Variables of every template: plain data, since templates come from anyone."""
@@ -109,19 +123,6 @@ class Prompter:
         known = {str(p.relative_to(f)) for f in self.folders for p in f.rglob("*.j2")}
         where = ", ".join(map(str, self.folders))
         return f"there is no template {name!r} in {where}{did_you_mean(name, known)}"
-
-
-def _environment(folders: Sequence[Path]) -> ImmutableSandboxedEnvironment:
-    environment = ImmutableSandboxedEnvironment(
-        loader=jinja2.FileSystemLoader(folders, encoding="utf-8-sig"),
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        keep_trailing_newline=True,
-        autoescape=False,
-    )
-    environment.filters |= {"state_text": state_text, "portion": portion, "plain": plain}
-    return environment
 
 
 def _template_line(error: BaseException, name: str) -> str:
