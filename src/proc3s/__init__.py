@@ -3,11 +3,27 @@
 `__init__.pyi` says where each name is from.
 """
 
-import lazy_loader
+import importlib
+from typing import Any
 
 from proc3s.moved import MovedModules
 
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+# Little is imported here: under `python -m proc3s` the working directory is still on the path (__main__.py).
+with open(f"{__file__}i", encoding="utf-8") as _stub:  # noqa: PTH123 - for the same reason
+    _HOMES = {line.split()[3]: line.split()[1] for line in _stub}
+
+__all__ = [*_HOMES]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(importlib.import_module(_HOMES[name], __name__), name)
+
+
+def __dir__() -> list[str]:
+    return __all__
+
 
 MovedModules(
     __name__,

@@ -3,14 +3,13 @@
 import importlib
 import sys
 from collections.abc import Mapping, Sequence
-from importlib.abc import Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec
 from types import ModuleType
 from typing import Any
 
 
-class MovedModules(MetaPathFinder, Loader):
-    """Finds modules that are nowhere else under the names that they used to have.
+class MovedModules:
+    """A finder and loader of modules that are nowhere else, under the names that they used to have.
 
     `moved` maps an old name in a package to the modules, in the same package, that have its contents now.
     """
@@ -35,7 +34,11 @@ class MovedModules(MetaPathFinder, Loader):
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
         """A spec for a name that moved; None for any other."""
-        return ModuleSpec(fullname, self) if fullname in self._moved else None
+        loader: Any = self  # by its methods: importlib.abc imports half of the standard library
+        return ModuleSpec(fullname, loader) if fullname in self._moved else None
+
+    def create_module(self, spec: ModuleSpec) -> None:
+        """As Python does by itself."""
 
     def exec_module(self, module: ModuleType) -> None:
         """Let every attribute be looked up where it is now."""

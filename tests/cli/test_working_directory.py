@@ -12,7 +12,7 @@ import pytest
 HIDING = ("yaml", "json", "random", "pickle", "socket", "pluggy", "numpy/__init__", "proc3s/__init__")
 SCRIPT = [str(Path(sysconfig.get_path("scripts")) / "proc3s")]
 MODULE = [sys.executable, "-m", "proc3s"]
-WALK = Path(__file__).parents[1] / "evaluation"
+WALK = Path(__file__).parents[1] / "search"
 ANSWER = """["```python
 def gen_plan(initial, a):
     return [Action(\\"hop\\", [a])]

@@ -124,7 +124,7 @@ def test_workers_that_keep_dying_are_given_up(problem, monkeypatch):
     def and_kill(key, chunk):
         future = submit(key, chunk)
         for child in active_children():
-            os.kill(child.pid, signal.SIGKILL)
+            child.kill()
         return future
 
     monkeypatch.setattr(executor, "_submit", and_kill)
