@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from proc3s import Plan, State, World
+from proc3s import Action, Plan, SpecError, State, Transition, World
+from proc3s.errors import Issue
 from proc3s_tabletop.actions.disturbances import OFF, Disturbance
 from proc3s_tabletop.actions.execution import Execution
 from proc3s_tabletop.actions.reference import Reference
@@ -70,6 +71,22 @@ class TabletopWorld(World[Telemetry]):
     def placed(self, x: float, y: float, z: float) -> tuple[float, float, float]:
         """Where something is placed that is to be placed at a point."""
         return self._disturbance.off(x, y, z) if self._disturbance else (x, y, z)
+
+    def step(self, action: Action) -> Transition[Telemetry]:
+        """Carry out one ground action, which may be one pick, or one place, at most.
+
+        Raises SpecError for a skill that does more, or keeps to itself what it did: nobody could judge it.
+        """
+        before = self.table.attempts
+        transition = super().step(action)
+        attempts = self.table.attempts - before
+        if attempts > 1:
+            message = f"picks and places {attempts} times in one action: make it {attempts} skills"
+            raise SpecError([Issue(f"skill {action.skill}", "target", message)])
+        if attempts and transition.telemetry.attempted is None:
+            message = "returned other telemetry than that of the pick or place that it carried out"
+            raise SpecError([Issue(f"skill {action.skill}", "target", message)])
+        return transition
 
     @abstractmethod
     def make_table(self, bodies: Mapping[str, Body], frames: Mapping[str, Frame]) -> Table:

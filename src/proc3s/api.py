@@ -158,7 +158,7 @@ def _registry(
 def _carry_out(
     job: Job, registry: Registry, out: Path | str | None, on_event: Emit | None, progress: bool
 ) -> Result:
-    folder = tempfile.TemporaryDirectory(prefix="proc3s-") if out is None else None
+    folder = tempfile.TemporaryDirectory(prefix="proc3s_run_") if out is None else None
     path = Path(folder.name) / "run" if folder else Path(out or "")
     session = Session(Job(job.options, path, job.given), [on_event] if on_event else [], registry)
     with _shown(session, progress):

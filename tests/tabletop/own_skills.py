@@ -1,6 +1,7 @@
 """Skills of a plugin: what the toolbox does, under other names and with other parameters."""
 
 from proc3s_tabletop.skills import pick, place
+from proc3s_tabletop.telemetry import Telemetry
 
 
 def grab(world, x, y, z):
@@ -11,6 +12,18 @@ def grab(world, x, y, z):
 def put(world, x, y, z):
     """The toolbox's place, likewise."""
     return place(world, x, y, z)
+
+
+def put_then_grab(world, x, y, z):
+    """Two actions in one: what comes of the first is lost."""
+    place(world, x, y, z)
+    return pick(world, x, y, z)
+
+
+def put_and_keep_quiet(world, x, y, z):
+    """Returns measurements of nothing."""
+    place(world, x, y, z)
+    return Telemetry()
 
 
 def grab_beside(world, o, gap):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from blocks_domain import belief, blocks_domain
 
-from proc3s import Action, PlanBatch
+from proc3s import Action, PlanBatch, SpecError
 from proc3s.domain.margins import check
 from proc3s.domain.world import make_world
 from proc3s.specs.domain import ParamSpec
@@ -65,6 +65,15 @@ def test_a_skill_with_other_parameters_is_judged_by_what_it_measured():
     (constraint, margin, text), *_ = told(domain, "grab", "object_0", 0.1)
     assert (constraint, round(margin, 3)) == ("grasp", -0.1)
     assert "the nearest object is object_0 (the red block)" in text
+
+
+@pytest.mark.parametrize(
+    ("target", "says"),
+    [("put_then_grab", "2 times in one action"), ("put_and_keep_quiet", "other telemetry")],
+)
+def test_a_skill_whose_actions_nobody_could_judge_is_refused_by_name(target, says):
+    with pytest.raises(SpecError, match=f"skill twice.*{says}"):
+        told(renamed({"twice": f"own_skills:{target}"}), "twice", *A)
 
 
 def screened(domain, *plan):

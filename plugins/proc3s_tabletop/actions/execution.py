@@ -37,6 +37,7 @@ class Execution(Table):
         self.scene.load(self.snapshot)
         self.scene.set_iterations(ITERATIONS)
         attempt = Attempt(self.scene, attempted, grasp)
+        self.attempts += 1
         try:
             action(attempt, grasp)
         except Stopped:

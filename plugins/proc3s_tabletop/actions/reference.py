@@ -54,6 +54,7 @@ class Reference(Table):
         x, y = grasp[:2, 3].tolist()
         self.scene.load(self.snapshot)
         attempt = Attempt(self.scene, attempted, grasp)
+        self.attempts += 1
         try:
             action(attempt, grasp)
         except Stopped:

@@ -32,6 +32,8 @@ class Table(ABC):
         settings: ReferenceSettings | None = None,
     ) -> None:
         self.scene: Simulation = engine().scene(bodies, settings or ReferenceSettings())
+        self.attempts = 0
+        """Picks and places that were attempted, up to now."""
         self.put(frames)
 
     def put(self, frames: Mapping[str, Frame]) -> None:
@@ -74,6 +76,7 @@ class Table(ABC):
         """Bring an object that is held by a grasp (6,) to a pose (6,) of the world."""
         apart = self._apart(grasp)
         if refused := self._refusal(name, apart):
+            self.attempts += 1
             return refused
         telemetry = self.place_at(matrices(pose) @ matrices(grasp))
         return dataclasses.replace(telemetry, wanted=name, grasp_apart=apart)

@@ -56,7 +56,7 @@ def diagnose(
         reached=max((one.trial.reached for one in weighed), default=0),
         failures=failures,
         alike=alike,
-        program_errors=_program_errors(error) if error else (),
+        program_errors=_program_errors(error, len(trials)) if error else (),
         constraints=reports,
         never_violated=tuple(name for name in names if trials and name not in violated),
         separations=separations(failed, space) if space else (),
@@ -135,8 +135,10 @@ def _by_constraint(failed: Sequence[_Failed], samples: int, room: int) -> tuple[
     return tuple(sorted(reports, key=lambda report: (-report.share, report.constraint)))
 
 
-def _program_errors(error: SketchError) -> tuple[Failure, ...]:
+def _program_errors(error: SketchError, samples: int) -> tuple[Failure, ...]:
+    """What ended the program: all there is to say without a sample, else what its last sample showed."""
     issues = error.issues or (error,)
+    share = shares([1], samples + 1)[0] if samples else 100
     return tuple(
-        Failure(kind=error.kind, text=i.message, line=i.line, source=i.source, share=100) for i in issues
+        Failure(kind=error.kind, text=i.message, line=i.line, source=i.source, share=share) for i in issues
     )

@@ -9,7 +9,7 @@ import numpy as np
 from proc3s import specs
 from proc3s.domain.samplers import Space
 from proc3s.domain.world import World
-from proc3s.errors import UsageError, blame
+from proc3s.errors import Issue, SpecError, UsageError, blame
 from proc3s.planning.limits import make_limits
 from proc3s.planning.options import DEFAULT_SOLVER, RunOptions
 from proc3s.planning.parts import Setup
@@ -89,6 +89,8 @@ def make_executor(registry: Registry, name: str, jobs: int) -> Executor:
     make = spec.load()
     with blame(f"executor {name}"):
         executor: Executor = make(jobs=jobs)
+    if missing := [method for method in ("map", "close") if not callable(getattr(executor, method, None))]:
+        raise SpecError([Issue(spec.target, f"executor {name}", f"has no method {missing[0]!r}")])
     return executor
 
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from proc3s.domain.samplers import Space
 from proc3s.domain.values import FloatArray
-from proc3s.errors import Interrupted, Proc3sError, blame
+from proc3s.errors import Interrupted, Proc3sError, blame, not_wanted
 from proc3s.sandbox.errors import SketchError, SketchRuntimeError
 from proc3s.search.evaluator import ALIKE, Evaluator
 from proc3s.search.solver import Solver
@@ -74,7 +74,7 @@ class Search:
 
     def _step(self, limit: int) -> None:
         with blame("solver", SketchError):
-            u = np.empty((1, 0)) if self.space.dim == 0 else self._solver.ask(limit)
+            u = np.empty((1, 0)) if self.space.dim == 0 else _points(self._solver.ask(limit), self.space.dim)
         self._exhausted = self.space.dim == 0 or not len(u)
         begun = len(self.trials)
         if len(u):
@@ -100,6 +100,16 @@ class Search:
             self.broken_off = error
         except KeyboardInterrupt:
             self.broken_off = Interrupted("interrupted")
+
+
+def _points(asked: object, dim: int) -> FloatArray:
+    """What a solver asks for as points (k, dim) of the unit cube. Raises SpecError if it is none."""
+    u = np.asarray(asked, float)
+    if u.ndim != 2 or (len(u) and u.shape[1] != dim):
+        raise not_wanted("solver", asked, f"points of shape (k, {dim})")
+    if not ((u >= 0) & (u <= 1)).all():
+        raise not_wanted("solver", asked, "points of the unit cube")
+    return u
 
 
 def _all_alike(trials: Sequence[Trial]) -> bool:
