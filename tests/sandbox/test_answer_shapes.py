@@ -164,6 +164,89 @@ def test_a_tag_within_an_answer_is_left():
     assert without_thinking(answer) == answer
 
 
+AT_ONCE = "def gen_plan(initial, cx):\n    return [Action('a', [{}])]"
+NO_DOMAIN = 'def gen_domain(initial):\n    return {"cx": ContinuousSampler(0, 1)}'
+
+
+def using(expression, domain=NO_DOMAIN):
+    return f"{AT_ONCE.format(expression)}\n\n\n{domain}"
+
+
+def begun_with(line, function):
+    return function.replace("    return", f"    {line}\n    return", 1)
+
+
+PT = "def pt(a):\n    return a"
+HELPED = {
+    "an import of several lines": ["from math import (\n    cos,\n    sin,\n)", using("cos(cx), sin(cx)")],
+    "several names at once": ["ONE, TWO = 1, 2", using("ONE, TWO")],
+    "an import of all": ["from math import *", using("cos(cx)")],
+    "a docstring that names the plan": [
+        'def helper(a):\n    """Used by gen_plan(initial)."""\n    return a + 1',
+        using("helper(cx)"),
+    ],
+    "a default": ["ONE = 1", using("one").replace("cx)", "cx, one=ONE)", 1)],
+    "a local name elsewhere": ["scale = 1", using("scale * cx", begun_with("scale = 2", NO_DOMAIN))],
+    "a parameter elsewhere": ["ONE = 1", using("ONE", f"def twice(ONE):\n    return 2\n\n\n{NO_DOMAIN}")],
+    "a comprehension elsewhere": [PT, using("pt(cx)", begun_with("q = [pt for pt in range(3)]", NO_DOMAIN))],
+    "a comprehension nearby": [PT, using("pt(cx), *[pt for pt in range(3)]")],
+    "a trial": ["try:\n    ONE = 1\nexcept Exception:\n    ONE = 2", using("ONE")],
+    "a loop": ["for ONE in [1]: pass", using("ONE")],
+    "a clause and its statement on a line": ["if True: ONE = 1", using("ONE")],
+    "a value changed in another block": ["D = {}", "D['a'] = 1", using("D['a']")],
+    "a value changed before the plan": ["D = {}", "D['a'] = 1\n\n\n" + using("D['a']")],
+    "a keyword of the same name": [PT, begun_with("pt(a=cx)", using("cx"))],
+    "an f-string": ["ONE = 1", using("f'{ONE}'")],
+    "a global name": ["ONE = 1", begun_with("global ONE; ONE = ONE + 1", using("cx"))],
+    "a method of its name": [
+        PT,
+        using("P().pt()", f"class P:\n    def pt(self):\n        return pt(1)\n\n\n{NO_DOMAIN}"),
+    ],
+}
+
+
+@pytest.mark.parametrize("case", HELPED)
+def test_a_name_bound_in_one_function_says_nothing_about_its_use_in_another(case):
+    assert extract_program("\n".join(map(fenced, HELPED[case]))) == "\n\n".join(HELPED[case])
+
+
+def test_a_draft_is_taken_only_for_what_nothing_else_binds():
+    draft = f"{PT}\n\n\ndef gen_plan(initial):\n    return [Action("
+    program = using("cx", begun_with("q = [pt for pt in range(3)]", NO_DOMAIN))
+    assert extract_program(f"{fenced(draft)}\n{fenced(program)}") == program
+
+
+SKELETON = """\
+def gen_plan(initial, x):
+    '''Draws
+    a line.'''
+    BODY
+
+
+def gen_domain(initial):
+    "As above."
+    BODY"""
+NO_VERSION = {
+    "a skeleton": fenced(SKELETON.replace("BODY", "...")),
+    "a skeleton that raises": fenced(SKELETON.replace("BODY", "raise NotImplementedError('later')")),
+    "no label": fenced(OLD, ""),
+    "text": fenced(OLD, "text"),
+    "a diff": fenced(OLD, "diff"),
+    "usage": fenced("gen_domain = None\nplan = gen_plan(initial, 3)"),
+}
+
+
+@pytest.mark.parametrize("case", NO_VERSION)
+def test_what_follows_the_program_and_is_no_new_version(case):
+    assert extract_program(f"{fenced(PROGRAM)}\nThat is:\n{NO_VERSION[case]}") == PROGRAM
+
+
+@pytest.mark.parametrize("thought", ["closed", "other tag", "never opened"])
+def test_a_thought_after_the_program_hides_nothing(thought):
+    answer = f"{THOUGHTS[thought]}{fenced(PROGRAM)}\n<think>Right?</think>\nDone."
+    assert extract_program(without_thinking(answer)) == PROGRAM
+
+
 @pytest.mark.parametrize(
     "unit",
     [
@@ -177,6 +260,17 @@ def test_a_tag_within_an_answer_is_left():
         "> ",
         "<think>",
         "1. ",
+        "x = ",
+        "x=",
+        "f(x=",
+        '\\"""',
+        "\"\"\"'''",
+        "class A:\n def f():\n",
+        "{",
+        "if a: ",
+        "x: ",
+        "def f():\n ''' a\n",
+        "```python\nx = y\n```\n",
     ],
 )
 def test_no_answer_of_any_length_takes_long(unit):

@@ -2,11 +2,12 @@
 
 import re
 import unicodedata
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain
 
 from proc3s.prompts.blocks import Block, bare, fenced, marked_up
+from proc3s.prompts.names import Names, names_of, unquoted
 from proc3s.sandbox.errors import SketchContractError
 
 _MARK = "\ufeff"
@@ -15,12 +16,14 @@ _PYTHON = {"python", "python3", "py"}
 _ROLES = ("gen_plan", "gen_domain")
 _PROGRAM = re.compile(r"(?:async[ \t]++)?def gen_plan\b|gen_plan[ \t]*+(?::[^=\n]*+)?=(?!=)")
 _DEFINITION = re.compile(
-    r"^(?:(?:async[ \t]++)?def|class)[ \t]++(\w++)|^(\w++)[ \t]*+(?::[^=\n]*+)?=(?!=)"
+    r"^(?:(?:async[ \t]++)?def|class)[ \t]++(\w++)|^(\w++)[ \t]*+(?::[^=\n]*+)?=(?!=|[ \t]*+None\b)"
     r"|^(?:from[ \t]++[\w.]++[ \t]++)?import[ \t]++(.*+)$",
     re.MULTILINE,
 )
 _STUB = re.compile(
-    r"^def \w++\([^)]{0,2000}+\)[^:\n]*+:\s*+(?:#[^\n]*+\n\s*+)*+(?:\.\.\.|pass)[ \t]*+(?:#[^\n]*+)?"
+    r"^def \w++\([^)]{0,2000}+\)[^:\n]*+:\s*+(?:#[^\n]*+\n\s*+)*+"
+    r"(?:(?:\"{3}(?:(?!\"{3})[\s\S]){0,2000}+\"{3}|'{3}(?:(?!'{3})[\s\S]){0,2000}+'{3}|\"[^\"\n]++\"|'[^'\n]++')\s*+)?+"
+    r"(?:#[^\n]*+\n\s*+)*+(?:\.\.\.|pass|raise NotImplementedError[^\n#]*+)[ \t]*+(?:#[^\n]*+)?"
     r"(?=\n++\S|\s*\Z)",
     re.MULTILINE,
 )
@@ -32,6 +35,9 @@ _BINDING = re.compile(
 )
 _USE = re.compile(r"\bgen_(?:plan|domain)[ \t]*+\(")
 _WORD = re.compile(r"[^\W\d]\w*+")
+_CODE = re.compile(
+    r"^[ \t>]*+(?:`{3}|~{3})|^[ \t]*+(?:async[ \t]++)?def gen_|^gen_plan[ \t]*+=", re.MULTILINE
+)
 _THINKING = re.compile(r"<(/?)(think|thinking|thought|reasoning)>", re.IGNORECASE)
 
 
@@ -74,38 +80,78 @@ def without_thinking(answer: str) -> str:
     tags = list(_THINKING.finditer(answer))
     if not tags or (not tags[0][1] and answer[: tags[0].start()].strip()):
         return answer  # it begins in no thought
-    closing = [tag for tag in tags if tag[1]]
-    return answer[closing[-1].end() if closing else tags[0].end() :].lstrip()
+    cut, depth = 0, 0
+    for tag in tags:
+        if cut and not depth and _CODE.search(answer, cut, tag.start()):
+            break  # the program has begun
+        depth = max(depth - 1, 0) if tag[1] else depth + 1
+        cut = tag.end() if tag[1] else cut
+    return answer[cut or tags[0].end() :].lstrip()
+
+
+@dataclass(frozen=True)
+class _Part:
+    """A block as a part of the program: what it defines at its margin, and its names as they are read."""
+
+    block: Block
+    defined: set[str]
+    names: Names
+
+    @property
+    def is_version(self) -> bool:
+        """Whether it defines gen_plan or gen_domain: where it is not the last that does, it is a draft."""
+        return not self.defined.isdisjoint(_ROLES)
+
+    @property
+    def may_help(self) -> bool:
+        """Whether others may use what it defines: it is Python, and does not merely call the program."""
+        called = _USE.search(unquoted(self.block.code))
+        return self.block.language in {"", *_PYTHON} and (not called or self.is_version)
 
 
 def _chosen(blocks: Sequence[Block]) -> list[int]:
     """Numbers of the blocks that make up the program, in order; none if nothing defines gen_plan."""
-    defined = [_defined(block.code) for block in blocks]
-    latest = {name: i for i, names in enumerate(defined) for name in names if name in _ROLES}
+    parts = [_Part(block, _defined(block.code), names_of(block.code)) for block in blocks]
+    latest: dict[str, int] = {}
+    for i in sorted(range(len(parts)), key=lambda i: (blocks[i].language in _PYTHON, i)):
+        latest.update(dict.fromkeys(parts[i].defined.intersection(_ROLES), i))
     if "gen_plan" not in latest:
         return []
-    helping = [i for i, block in enumerate(blocks) if _may_help(block, defined[i])]
-    chosen = set(latest.values())
-    while more := set(_helpers(blocks, defined, chosen, helping)):
+    helping = {i: part for i, part in enumerate(parts) if part.may_help}
+    chosen, last = set(latest.values()), max(latest.values())
+    while more := set(_helpers(parts, chosen, helping, last)) - chosen:
         chosen |= more
     return sorted(chosen)
 
 
-def _may_help(block: Block, defined: set[str]) -> bool:
-    """Whether others may use what a block defines: it is Python, and does not merely call the program."""
-    called = _USE.search(_uncommented(block.code))
-    return block.language in {"", *_PYTHON} and (not called or not defined.isdisjoint(_ROLES))
-
-
 def _helpers(
-    blocks: Sequence[Block], defined: Sequence[set[str]], chosen: set[int], helping: Sequence[int]
+    parts: Sequence[_Part], chosen: set[int], helping: Mapping[int, _Part], last: int
 ) -> Iterator[int]:
-    """Blocks that define, last of all, a name which the chosen ones use and do not define."""
-    codes = [_uncommented(blocks[i].code) for i in chosen]
-    bound = set(chain.from_iterable(map(_bound, codes)))
-    wanted = set(chain.from_iterable(map(_WORD.findall, codes))) - bound
-    latest = {name: i for i in helping for name in defined[i] & wanted}
-    yield from set(latest.values()) - chosen
+    """Blocks that define, last of all, a name which the chosen ones use and do not define.
+
+    A draft helps only with what nothing chosen binds anywhere; any other block before the program's `last`
+    helps with whatever a scope of it may use, by what it binds, changes or imports unnamed.
+    """
+    taken = [parts[i] for i in chosen]
+    codes = [_uncommented(part.block.code) for part in taken]
+    surely = set(chain.from_iterable(map(_WORD.findall, codes)))
+    given = set(chain.from_iterable(part.names.bound for part in taken))
+    surely -= given.union(*map(_bound, codes))
+    needed = set(chain.from_iterable(part.names.free for part in taken))
+    wanted = needed - given
+    latest: dict[str, int] = {}
+    for i, part in helping.items():
+        found = part.defined & surely
+        if not part.is_version:
+            found |= part.names.bound & (surely | wanted if i < last else surely)
+        latest.update(dict.fromkeys(found, i))
+    yield from latest.values()
+    bound = {name: i for i in sorted(chosen) for name in parts[i].names.bound & needed}
+    for i, part in helping.items():
+        if i < last and not part.is_version:
+            changes = part.names.changed & needed
+            if part.names.imports_all or any(bound.get(name, i) < i for name in changes):
+                yield i
 
 
 def _defined(code: str) -> set[str]:
