@@ -16,10 +16,9 @@ from proc3s.llm.function import AskFunction, FunctionLLM
 from proc3s.llm.types import LLM, Message
 from proc3s.planning.options import DEFAULT_PRESET, RunOptions, run_options
 from proc3s.planning.session import Given, Job, Session
-from proc3s.planning.setup import make_problem, make_prompter
+from proc3s.planning.setup import first_messages
 from proc3s.plugins.given_parts import GivenParts
 from proc3s.plugins.registry import Registry, open_registry
-from proc3s.prompts.conversation import conversation
 from proc3s.reporting.progress import SearchProgress
 from proc3s.result import Result
 from proc3s.runs.events import Emit
@@ -104,9 +103,7 @@ def render_prompt(
 ) -> tuple[Message, ...]:
     """The messages that an LLM would be asked first. Asks nobody."""
     given = dict(task=task, method=method, preset=preset, seed=seed, goal=goal, **options)
-    registry, chosen = _registry(plugins, domain, None, None), _options(given, plugins)
-    problem = make_problem(registry, chosen)
-    return conversation(make_prompter(registry, chosen, problem), problem, ())
+    return first_messages(_registry(plugins, domain, None, None), _options(given, plugins))
 
 
 def tasks(plugins: Sequence[Path | str] = ()) -> list[str]:

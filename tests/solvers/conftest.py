@@ -8,7 +8,7 @@ from proc3s import SolverSpec
 from proc3s.planning.options import RunOptions
 from proc3s.planning.planner import plan
 from proc3s.planning.proposals import given_program
-from proc3s.planning.setup import make_problem, make_setup
+from proc3s.planning.setup import make_setup
 from proc3s.plugins.part_options import part_options
 from proc3s.plugins.registry import open_registry
 from proc3s.prompts.extract import extract_program
@@ -41,8 +41,7 @@ def samples_of(registry):
         options = RunOptions(
             task=f"drawing/{task}", goal="x", solver=solver, seed=seed, samples=samples, feedback=0
         )
-        problem = make_problem(registry, options)
-        setup = make_setup(registry, options, problem)
+        setup = make_setup(registry, options)
         try:
             outcome = plan(setup, given_program(program, "none", 0), lambda event: None)
         finally:

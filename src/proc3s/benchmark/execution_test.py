@@ -16,7 +16,7 @@ from proc3s.errors import UsageError
 from proc3s.planning.grounding import open_sketch
 from proc3s.planning.options import RunOptions
 from proc3s.planning.parts import Setup
-from proc3s.planning.setup import make_problem, make_setup
+from proc3s.planning.setup import make_setup
 from proc3s.plugins.registry import Registry
 from proc3s.search.evaluator import Evaluator
 from proc3s.search.problem import Problem
@@ -87,8 +87,7 @@ def field_tests(
 def _setup(registry: Registry, case: Case, seed: int, robust: int, samples: int | None) -> Setup:
     given = {"task": case.task, "seed": seed, "robust": robust, "samples": samples}
     options = RunOptions.model_validate({**given, "domain_options": case.scene})
-    problem = make_problem(registry, options, goal_needed=False)
-    return make_setup(registry, options, problem)
+    return make_setup(registry, options, goal_needed=False)
 
 
 def _search(setup: Setup, program: str) -> tuple[Evaluator, Trial | None]:

@@ -15,7 +15,7 @@ from proc3s.benchmark.measurement import PLAIN, SCREENED, Measurement, Meter, Se
 from proc3s.planning.grounding import open_sketch
 from proc3s.planning.options import RunOptions
 from proc3s.planning.parts import Setup
-from proc3s.planning.setup import make_executor, make_problem, make_setup
+from proc3s.planning.setup import make_executor, make_setup
 from proc3s.plugins.registry import Registry
 from proc3s.search.evaluator import Evaluator
 from proc3s.search.executor import Executor
@@ -100,13 +100,10 @@ class Bench:
                 "check_goal": False,
             }
         )
-        problem = dataclasses.replace(
-            make_problem(self._registry, options, goal_needed=False),
-            screens="all" if variant.saving else "none",
-            prefixes=variant.saving,
-        )
-        setup = make_setup(self._registry, options, problem)
-        return dataclasses.replace(setup, executor=self._executors[variant.executor, variant.jobs])
+        executor, saving = self._executors[variant.executor, variant.jobs], variant.saving
+        setup = make_setup(self._registry, options, goal_needed=False)
+        problem = dataclasses.replace(setup.problem, screens="all" if saving else "none", prefixes=saving)
+        return dataclasses.replace(setup, problem=problem, executor=executor)
 
 
 def _warm_up(setup: Setup, sketch: Sketch) -> None:

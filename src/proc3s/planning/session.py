@@ -17,7 +17,7 @@ from proc3s.planning.planner import Outcome, plan
 from proc3s.planning.proposals import Propose, Question, ask_llm, given_program
 from proc3s.planning.readiness import check_parts
 from proc3s.planning.resume import RunHistory
-from proc3s.planning.setup import make_problem, make_prompter, make_setup
+from proc3s.planning.setup import make_prompter, make_setup
 from proc3s.planning.summary import Summary, summarize
 from proc3s.planning.unused_options import unused, unused_budget
 from proc3s.plugins.registry import Registry, open_registry
@@ -96,8 +96,7 @@ class Session:
         if job.given is not None:
             self._options = job.options.model_copy(update={"feedback": 0})
         self.registry = registry or open_registry(self._options.plugins)
-        self._problem = make_problem(self.registry, self._options, goal_needed=job.given is None)
-        self._setup = make_setup(self.registry, self._options, self._problem)
+        self._setup = make_setup(self.registry, self._options, goal_needed=job.given is None)
         check_parts(self._setup.problem)
         self.notices = [*unused(self._options, self._setup)]
         """What whoever asked for the run should know before it begins."""
@@ -113,7 +112,7 @@ class Session:
     @property
     def samples(self) -> int:
         """How many samples a round may take."""
-        return self._problem.samples
+        return self._setup.problem.samples
 
     def listen(self, listener: Emit) -> None:
         """Tell a listener of all events from now on."""
@@ -150,22 +149,19 @@ class Session:
             id=self._past.id,
             options=self._options.model_dump(mode="json"),
             versions=versions(),
-            samples=self._problem.samples,
-            scene=self._problem.scene,
-            goal=self._problem.goal,
+            samples=self._setup.problem.samples,
+            scene=self._setup.problem.scene,
+            goal=self._setup.problem.goal,
         )
 
     def _asker(self) -> Callable[[], Propose]:
         """Who is asked; made before the run begins, so that a missing key or a stale template stops it."""
-        options = self._options
+        options, problem = self._options, self._setup.problem
         chosen = find_llm(self.registry, options.llm or "", options.llm_options)
-        question = Question(
-            self._problem,
-            make_prompter(self.registry, options, self._problem),
-            chosen.call.sampling(options.seed, options.candidates),
-            options.llm_jobs or options.candidates,
-        )
-        question.prompter.rehearse(self._problem)
+        prompter = make_prompter(self.registry, options, problem)
+        sampling = chosen.call.sampling(options.seed, options.candidates)
+        prompter.rehearse(problem)
+        question = Question(problem, prompter, sampling, options.llm_jobs or options.candidates)
         llm = open_llm(chosen, options.budget, self._past, options.record, self._charged, self._call_failed)
         llm.prepare()
         if not llm.live:

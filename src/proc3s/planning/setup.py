@@ -2,6 +2,7 @@
 
 import dataclasses
 import json
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -10,11 +11,13 @@ from proc3s import specs
 from proc3s.domain.samplers import Space
 from proc3s.domain.world import World
 from proc3s.errors import Issue, SpecError, UsageError, blame
+from proc3s.llm.types import Message
 from proc3s.planning.limits import make_limits
 from proc3s.planning.options import DEFAULT_SOLVER, RunOptions
 from proc3s.planning.parts import Setup
 from proc3s.plugins.part_options import part_options
 from proc3s.plugins.registry import Registry, _template_folders
+from proc3s.prompts.conversation import Exchange, conversation
 from proc3s.prompts.prompter import Prompter
 from proc3s.sandbox.errors import SketchError
 from proc3s.search.executor import Executor
@@ -79,6 +82,15 @@ def make_prompter(registry: Registry, options: RunOptions, problem: Problem) -> 
     )
 
 
+def first_messages(
+    registry: Registry, options: RunOptions, history: Iterable[Exchange] = ()
+) -> tuple[Message, ...]:
+    """The messages that a run would ask an LLM first, or after a history; that is read after the task."""
+    problem = make_problem(registry, options)
+    exchanges = tuple(history)
+    return conversation(make_prompter(registry, options, problem), problem, exchanges)
+
+
 def make_executor(registry: Registry, name: str, jobs: int) -> Executor:
     """The executor with so many jobs. Raises UsageError if it has no use for them."""
     spec = registry.get(specs.ExecutorSpec, name)
@@ -94,8 +106,11 @@ def make_executor(registry: Registry, name: str, jobs: int) -> Executor:
     return executor
 
 
-def make_setup(registry: Registry, options: RunOptions, problem: Problem) -> Setup:
-    """The parts of the second stage: solver, executor, method and preset."""
+def make_setup(
+    registry: Registry, options: RunOptions, problem: Problem | None = None, goal_needed: bool = True
+) -> Setup:
+    """The parts of the second stage: problem (unless it is given), solver, executor, method and preset."""
+    problem = problem or make_problem(registry, options, goal_needed)
     method = select_method(registry, options)
     preset = registry.get(specs.PresetSpec, options.preset)
     name = options.solver or method.solver or preset.solver or DEFAULT_SOLVER

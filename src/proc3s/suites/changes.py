@@ -6,9 +6,8 @@ from typing import Any
 from proc3s.errors import Proc3sError
 from proc3s.llm.types import digest
 from proc3s.planning.options import RunOptions
-from proc3s.planning.setup import make_problem, make_prompter
+from proc3s.planning.setup import first_messages
 from proc3s.plugins.registry import Registry
-from proc3s.prompts.conversation import conversation
 from proc3s.suites.episode import Episode
 
 
@@ -47,7 +46,6 @@ def _prompt(registry: Registry, episode: Episode) -> str | None:
     place = episode.model_dump(include={"task", "method", "preset", "seed"})
     options = RunOptions.model_validate(place)
     try:
-        problem = make_problem(registry, options)
-        return digest(conversation(make_prompter(registry, options, problem), problem, []))
+        return digest(first_messages(registry, options))
     except Proc3sError:
         return None

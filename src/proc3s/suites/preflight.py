@@ -11,7 +11,7 @@ from proc3s.planning.llm_backend import Chosen, find_llm, open_llm, price_of
 from proc3s.planning.options import RunOptions, key_values
 from proc3s.planning.proposals import Question
 from proc3s.planning.readiness import check_parts
-from proc3s.planning.setup import make_problem, make_prompter, make_setup
+from proc3s.planning.setup import make_prompter, make_setup
 from proc3s.plugins.registry import Registry
 from proc3s.specs.suite import Cell, SuiteSpec
 from proc3s.suites.runner import Order
@@ -50,11 +50,11 @@ def _check_task(
     for (method, preset), times in Counter((cell.method, cell.preset) for cell in cells).items():
         given = {"task": cells[0].task, "method": method, "preset": preset, "seed": seed}
         options = RunOptions.model_validate({**given, "samples": spec.samples, "feedback": spec.feedback})
-        problem = make_problem(registry, options)
-        make_setup(registry, options, problem).executor.close()
-        prompter = make_prompter(registry, options, problem)
-        prompter.rehearse(problem)
+        setup = make_setup(registry, options)
+        setup.executor.close()
+        prompter = make_prompter(registry, options, setup.problem)
+        prompter.rehearse(setup.problem)
         if not checked:
-            check_parts(problem)
+            check_parts(setup.problem)
             checked = True
-        yield Question(problem, prompter, chosen.call.sampling(seed, 1)), times
+        yield Question(setup.problem, prompter, chosen.call.sampling(seed, 1)), times

@@ -15,9 +15,9 @@ from proc3s.llm.types import Message, digest, estimate_tokens
 from proc3s.planning.options import RunOptions, run_options
 from proc3s.planning.proposals import proposals_of
 from proc3s.planning.resume import answers_of
-from proc3s.planning.setup import make_problem, make_prompter
+from proc3s.planning.setup import first_messages
 from proc3s.plugins.registry import Registry
-from proc3s.prompts.conversation import Exchange, conversation
+from proc3s.prompts.conversation import Exchange
 from proc3s.runs.folder import markdown
 from proc3s.runs.reading import LOG, events_of, read_events, started
 from proc3s.textfiles import read_text
@@ -27,9 +27,7 @@ def render(registry: Registry, options: RunOptions, round_: int, run: Path | Non
     """The messages of a round; rounds after the first take answers and diagnoses from a run folder."""
     if round_ and run is None:
         raise UsageError("--round needs --from RUN, which has the answers of the earlier rounds")
-    problem = make_problem(registry, options)
-    history = _history(run, round_) if run else []
-    return conversation(make_prompter(registry, options, problem), problem, history)
+    return first_messages(registry, options, _history(run, round_) if run else ())
 
 
 def options_of(task: str, given: dict[str, Any], run: Path | None) -> RunOptions:
@@ -43,7 +41,7 @@ def options_of(task: str, given: dict[str, Any], run: Path | None) -> RunOptions
     return logged.model_copy(update={name: getattr(own, name) for name in given})
 
 
-def _history(run: Path, rounds: int) -> list[Exchange]:
+def _history(run: Path, rounds: int) -> Iterator[Exchange]:
     texts = {
         (p.round, p.candidate): p.answer
         for a in answers_of(read_events(run))
@@ -52,10 +50,8 @@ def _history(run: Path, rounds: int) -> list[Exchange]:
     ended = [e for e in events_of(run, "round_ended") if (e["round"], e["candidate"]) in texts]
     if len(ended) < rounds:
         raise UsageError(f"{run} has {len(ended)} failed round(s), so no prompt of round {rounds}")
-    return [
-        Exchange(texts[e["round"], e["candidate"]], Diagnosis.model_validate(e["diagnosis"]))
-        for e in ended[:rounds]
-    ]
+    for e in ended[:rounds]:
+        yield Exchange(texts[e["round"], e["candidate"]], Diagnosis.model_validate(e["diagnosis"]))
 
 
 def show(messages: tuple[Message, ...], format_: str, diff: Path | None, round_: int) -> None:
