@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 from proc3s.domain.domain import Domain
+from proc3s.errors import UsageError
 from proc3s.llm.config import choose_llm
 from proc3s.llm.function import AskFunction, FunctionLLM
 from proc3s.llm.types import LLM, Message
@@ -29,6 +30,7 @@ from proc3s.specs.parts import LLMSpec, SolverSpec
 
 AnyLLM: TypeAlias = str | LLM | AskFunction
 AnySolver: TypeAlias = str | Callable[..., Solver]
+Plugins: TypeAlias = Sequence[Path | str]
 
 
 def run(
@@ -42,7 +44,7 @@ def run(
     goal: str | None = None,
     jobs: int = 1,
     domain: DomainSpec | None = None,
-    plugins: Sequence[Path | str] = (),
+    plugins: Plugins = (),
     out: Path | str | None = None,
     on_event: Emit | None = None,
     progress: bool = False,
@@ -72,22 +74,28 @@ def solve(
     goal: str | None = None,
     jobs: int = 1,
     domain: DomainSpec | None = None,
-    plugins: Sequence[Path | str] = (),
+    plugins: Plugins = (),
     out: Path | str | None = None,
     on_event: Emit | None = None,
     progress: bool = False,
     **options: Any,
 ) -> Result:
     """The second stage only: search the numbers of a program (its text). Asks no LLM; else as `run`."""
+    if "\n" not in program.strip() and "gen_plan" not in program:
+        raise UsageError(f"a program is given as its text, not as {program!r}; read the file first")
     given = dict(task=task, method=method, preset=preset, seed=seed, goal=goal, jobs=jobs, **options)
     registry = _registry(plugins, domain, None, solver)
     job = Job(_options(given | {"solver": _name(solver)}, plugins), given=Given(program))
     return _carry_out(job, registry, out, on_event, progress)
 
 
-def load_run(path: Path | str) -> Result:
-    """The result that a run folder tells, whoever wrote it. Raises UsageError if it is none."""
-    return Result(Path(path))
+def load_run(path: Path | str, *, domain: DomainSpec | None = None, plugins: Plugins | None = None) -> Result:
+    """The result that a run folder tells, whoever wrote it. Raises UsageError if it is none.
+
+    Its states are computed anew: give the `domain` if it was an object, `plugins` if they lie elsewhere now.
+    """
+    given = domain is not None or plugins is not None
+    return Result(Path(path), _registry(plugins or (), domain, None, None) if given else None)
 
 
 def render_prompt(
@@ -98,7 +106,7 @@ def render_prompt(
     seed: int = 0,
     goal: str | None = None,
     domain: DomainSpec | None = None,
-    plugins: Sequence[Path | str] = (),
+    plugins: Plugins = (),
     **options: Any,
 ) -> tuple[Message, ...]:
     """The messages that an LLM would be asked first. Asks nobody."""
@@ -106,22 +114,22 @@ def render_prompt(
     return first_messages(_registry(plugins, domain, None, None), _options(given, plugins))
 
 
-def tasks(plugins: Sequence[Path | str] = ()) -> list[str]:
+def tasks(plugins: Plugins = ()) -> list[str]:
     """The names `domain/task` of all tasks that are installed."""
     domains = open_registry(_paths(plugins)).all(DomainSpec).values()
     return [f"{domain.name}/{task}" for domain in domains for task in domain.tasks]
 
 
-def get_domain(name: str, plugins: Sequence[Path | str] = ()) -> Domain:
+def get_domain(name: str, plugins: Plugins = ()) -> Domain:
     """A domain with everything that plugins attach to it; its `spec` is what `domain.yaml` says."""
     return open_registry(_paths(plugins)).domain(name)
 
 
-def _paths(plugins: Sequence[Path | str]) -> list[Path]:
+def _paths(plugins: Plugins) -> list[Path]:
     return [Path(path).resolve() for path in plugins]
 
 
-def _options(given: dict[str, Any], plugins: Sequence[Path | str]) -> RunOptions:
+def _options(given: dict[str, Any], plugins: Plugins) -> RunOptions:
     return run_options(**{**given, "plugins": _paths(plugins)})
 
 
@@ -134,13 +142,16 @@ def _name(part: object) -> str | None:
 
 
 def _registry(
-    plugins: Sequence[Path | str],
+    plugins: Plugins,
     domain: DomainSpec | None,
     llm: AnyLLM | None,
     solver: AnySolver | None,
 ) -> Registry:
     """The registry of what is installed, and of the objects that were given."""
     given: list[Spec] = [domain] if domain else []
+    for part, what in ((solver, "a solver"), (llm, "a language model")):
+        if part is not None and not isinstance(part, str | LLM) and not callable(part):
+            raise UsageError(f"{what} is given by name, as a class or as a function, not as {part!r}")
     if solver is not None and not isinstance(solver, str):
         given.append(SolverSpec(name=_name(solver) or "", target=solver, summary="given in Python"))
     if llm is not None and not isinstance(llm, str):

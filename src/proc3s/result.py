@@ -26,6 +26,7 @@ from proc3s.reporting.history import ProgramRecord, Story, read_story
 from proc3s.search.rollout import carry_out
 from proc3s.specs.domain import SamplerSpec
 from proc3s.specs.yaml_files import validate
+from proc3s.wording import count
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -51,13 +52,23 @@ class Trials:
     def __len__(self) -> int:
         return len(self.columns["round"])
 
+    def __repr__(self) -> str:
+        accepted = sum(map(bool, self.columns["accepted"]))
+        return f"<{count(len(self), 'trial')}, {accepted} accepted, of {', '.join(self.values)}>"
+
     def __getitem__(self, name: str) -> Sequence[Any]:
         """A column, or the values of a parameter, by name."""
         return self.columns[name] if name in self.columns else self.values[name]
 
     def to_pandas(self) -> "DataFrame":
-        """A table with a row for each sample; points of the cube are columns `u.NAME`. Needs pandas."""
-        from pandas import DataFrame
+        """A table with a row for each sample; points of the cube are columns `u.NAME`.
+
+        Raises UsageError without pandas.
+        """
+        try:
+            from pandas import DataFrame
+        except ModuleNotFoundError as error:
+            raise UsageError("to_pandas needs pandas: pip install pandas") from error
 
         points = {f"u.{name}": column for name, column in self.u.items()}
         return DataFrame({**self.columns, **self.values, **points})
@@ -94,8 +105,14 @@ class Result:
 
     @property
     def reason(self) -> str | None:
-        """The judge's reason; of a run that did not come to its end, why."""
-        return self.summary.error or self.summary.goal_reason
+        """The judge's reason; of a run that did not come so far, why: its error, or the commonest failure."""
+        return self.summary.error or self.summary.goal_reason or self._commonest
+
+    @property
+    def _commonest(self) -> str | None:
+        found = self.diagnosis
+        failures = (*found.program_errors, *found.failures) if found else ()
+        return f"{failures[0].kind}: {failures[0].text}" if failures else None
 
     @property
     def error(self) -> str | None:

@@ -2,6 +2,7 @@
 
 import json
 import pkgutil
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -196,6 +197,69 @@ def test_a_lambda_needs_one_process(here):
 def test_mistakes_are_typed_errors(here, wrong, says):
     with pytest.raises((UsageError, SpecError), match=says):
         proc3s.run("drawing/star", **wrong)
+
+
+@pytest.mark.parametrize(
+    ("program", "says"),
+    [
+        ("def gen_plan(:\n    pass", "Syntax"),
+        (PROGRAM.replace("[x]", "[1 / 0]"), "division by zero"),
+        (PROGRAM.replace("slide", "glide"), "glide"),
+    ],
+)
+def test_a_program_that_fails_is_a_reason(here, program, says):
+    result = proc3s.solve("track/far", program, domain=track())
+    assert not result.solved
+    assert says in result.reason
+    assert "None" not in repr(result)
+
+
+@pytest.mark.parametrize(
+    ("changes", "says"),
+    [
+        ({"program": "mine.py"}, "as its text"),
+        ({"solver": First(None, 0, None, None)}, "a solver is given by name"),
+    ],
+)
+def test_easy_mistakes_are_usage_errors(here, changes, says):
+    with pytest.raises(UsageError, match=says):
+        proc3s.solve(**{"task": "track/far", "program": PROGRAM, "domain": track(), **changes})
+
+
+class Wide(First):
+    """Asks for points of another space."""
+
+    def ask(self, limit):
+        return self.rng.random((2, 99))
+
+
+class Beyond(First):
+    """Asks for points outside the cube."""
+
+    def ask(self, limit):
+        return 2 + self.rng.random((2, self.space.dim))
+
+
+@pytest.mark.parametrize("solver", [Wide, Beyond])
+def test_a_solver_that_asks_for_no_points_of_the_cube_is_told(here, solver):
+    assert "not points of" in proc3s.solve("track/far", PROGRAM, domain=track(), solver=solver).error
+
+
+def test_a_function_that_gives_no_text_is_an_error_of_the_model(here):
+    assert "returned None, not a text" in proc3s.run("drawing/star", llm=lambda messages: None).error
+
+
+def test_states_of_a_run_whose_domain_was_an_object(here):
+    proc3s.solve("track/far", PROGRAM, domain=track(), out="kept")
+    with pytest.raises(UsageError, match="no domain 'track'"):
+        _ = proc3s.load_run("kept").states
+    assert len(proc3s.load_run("kept", domain=track()).states) == 1
+
+
+def test_trials_are_shown_in_a_line(here):
+    assert re.fullmatch(
+        r"<\d+ trials?, 1 accepted, of x>", repr(proc3s.solve("track/far", PROGRAM, domain=track()).trials)
+    )
 
 
 def test_events_are_heard_in_order(here):

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Sequence
 from typing import TypeAlias
 
+from proc3s.llm.errors import LLMError
 from proc3s.llm.types import LLM, Completion, Message, Request, answer
 
 AskFunction: TypeAlias = Callable[[Sequence[Message]], str]
@@ -16,5 +17,8 @@ class FunctionLLM(LLM):
         self._function, self._name = function, name
 
     def complete(self, request: Request) -> Completion:
-        """The text that the function gives for the messages."""
-        return answer(self._function(request.messages), self._name)
+        """The text that the function gives for the messages. Raises LLMError if that is no text."""
+        text = self._function(request.messages)
+        if not isinstance(text, str):
+            raise LLMError(f"the function {self._name} returned {text!r}, not a text")
+        return answer(text, self._name)
