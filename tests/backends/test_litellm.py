@@ -564,6 +564,7 @@ assert "PLANTED_BY_DOTENV" not in os.environ
 """
 
 
+@pytest.mark.slow
 def test_a_fresh_process_stays_silent_at_home_and_ends_at_once(tmp_path: Path):
     """Several threads import litellm at the same time, with logging asked for and a `.env` at hand."""
     (tmp_path / ".env").write_text("PLANTED_BY_DOTENV=1\n")
@@ -585,6 +586,7 @@ def test_a_fresh_process_stays_silent_at_home_and_ends_at_once(tmp_path: Path):
     assert [path.name for path in tmp_path.iterdir()] == [".env"]
 
 
+@pytest.mark.slow
 def test_no_process_is_started_to_learn_what_machine_this_is():
     code = """
 import subprocess

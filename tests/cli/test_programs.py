@@ -161,6 +161,7 @@ def test_a_solution_among_samples_that_raise_is_found(cli, stub):
     assert result.json["samples"] > 1
 
 
+@pytest.mark.slow
 def test_an_endless_loop_in_some_samples_ends_the_round_with_its_line(cli, stub, answers, here):
     hang = fence(
         PLAN

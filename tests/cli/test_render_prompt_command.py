@@ -166,6 +166,7 @@ def test_a_difference_of_a_later_round_to_the_run_it_is_from(cli, failed_run):
     assert (result.code, result.stdout) == (0, "")
 
 
+@pytest.mark.slow
 def test_approving_and_checking(cli, here):
     assert cli("render-prompt", "--check", "approved").code == 2
     assert cli("render-prompt", "--check", "approved", "--update").code == 0
@@ -214,6 +215,7 @@ def test_approving_leaves_other_files_alone(cli, here):
     assert cli("render-prompt", "--check", "approved").code == 0
 
 
+@pytest.mark.slow
 def test_checking_one_method_says_nothing_about_the_others(cli, here):
     cli("render-prompt", "--check", "approved", "--update")
     assert cli("render-prompt", "--check", "approved", "--method", "cap").code == 0

@@ -72,16 +72,21 @@ def check_console(body: str, expected_exit: int, folder: Path) -> None:
 SLOW = (
     "benchmark",
     "llm",
+    "look-at-a-run",
     "own-domain",
     "own-instruction",
     "own-solver",
+    "publish-a-plugin",
     "reading-a-failure",
     "review-prompts",
+    "sandbox",
     "screens",
     "steer-the-search",
     "switching-llms",
     "table-top",
     "table-top-task",
+    "use-from-python",
+    "write-a-domain",
 )
 """Pages whose examples start the program many times, import litellm, simulate an arm, or run tests."""
 

@@ -52,6 +52,7 @@ def test_one_candidate_that_cannot_be_used_costs_nothing(cli, script, texts):
     assert (result.code, result.json["rounds"]) == (0, 0)
 
 
+@pytest.mark.slow
 def test_the_outcome_does_not_depend_on_processes(cli, script, texts, here):
     args = script([texts.outside, texts.star], [texts.outside, texts.star])
     flags = ("--candidates", 2, "--no-screens", "--json")

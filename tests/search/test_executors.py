@@ -81,6 +81,7 @@ def stepped(count):
     return len(count.read_text()) if count.exists() else 0
 
 
+@pytest.mark.slow
 def test_a_killed_worker_costs_time_and_no_result(problem, search, serial, tmp_path):
     slow = problem(world={"seconds": 0.002, "count": str(tmp_path / "steps")})
     expected = search(problem(), serial, **ALL)

@@ -40,6 +40,7 @@ NAMES = pytest.mark.parametrize("name", ["rejection", "gaussian"])
 @NAMES
 @settings(max_examples=20, deadline=None)
 @given(first=st.integers(1, 300), largest=st.integers(1, 300), budget=st.integers(1, 400))
+@pytest.mark.slow
 def test_the_size_of_batches_never_changes_which_samples_are_drawn(name, first, largest, budget):
     plain = draw(solver(name, budget=budget), budget)
     other = draw(solver(name, budget=budget, first=first, largest=largest), budget)

@@ -128,6 +128,7 @@ def test_ctrl_c_leaves_a_folder_to_go_on_with(background, cli, suite, here, even
     assert len(read_results(here / "out").all) == 4
 
 
+@pytest.mark.slow
 def test_a_provider_that_fails_is_asked_again_later(cli, suite, here):
     """Without a bundled answer `replay` fails as a provider does: nothing is kept as done."""
     name = suite(methods=["cap", "proc3s"], seeds=2)
@@ -152,6 +153,7 @@ def test_an_episode_that_ended_as_the_suite_was_killed_is_taken_as_it_is(cli, su
     assert [getattr(again, name) for name in same] == [getattr(kept, name) for name in same]
 
 
+@pytest.mark.slow
 def test_what_changed_since_is_said(cli, suite, here):
     assert cli("bench", suite(seeds=1), "--out", "out").code == 0
     store = Store(here / "out")
