@@ -20,15 +20,8 @@ class MovedModules:
         }
 
     def install(self) -> None:
-        """Ask here last, after every other finder, and once."""
-        if self not in sys.meta_path:
-            sys.meta_path.append(self)
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, MovedModules) and other._moved == self._moved
-
-    def __hash__(self) -> int:
-        return hash(tuple(self._moved))
+        """Ask here last, after every other finder."""
+        sys.meta_path.append(self)
 
     def find_spec(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None

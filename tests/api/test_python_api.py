@@ -270,8 +270,12 @@ def test_events_are_heard_in_order(here):
     assert "batch_evaluated" in heard
 
 
-def test_progress_is_shown_when_it_is_asked_for(here, capfd):
+def test_progress_is_shown_when_it_is_asked_for(here, capfd, monkeypatch):
+    monkeypatch.setenv("FORCE_COLOR", "1")  # what a terminal gets
     assert proc3s.run("drawing/star", progress=True).solved
+    shown, told = capfd.readouterr()
+    assert shown == ""
+    assert "sampling" in told
 
 
 def test_tasks_and_domains():

@@ -107,7 +107,7 @@ def _prepare_file(path: Path) -> Cassette:
             pass
     except OSError as error:
         raise UsageError(f"the cassette {path} cannot be written: {error.strerror}") from error
-    _of_cassette(path)
+    of_cassette(path)
     return Cassette(path)
 
 
@@ -134,15 +134,16 @@ def _refuse_secrets(recording: Mapping[str, Any]) -> None:
         raise LLMError("it holds the value of a key, token or password in the environment")
 
 
-def _of_cassette(path: Path) -> list[Recording]:
+def of_cassette(path: Path) -> list[Recording]:
+    """The answers in a cassette, in the order in which they were recorded. Raises LLMError."""
     try:
         entries = Cassette(path).entries()
     except OSError as error:
         raise LLMError(f"the cassette {path} cannot be read: {error.strerror}") from error
-    return [_checked(entry.value, f"{path}:{entry.line}") for entry in entries]
+    return [checked(entry.value, f"{path}:{entry.line}") for entry in entries]
 
 
-def _checked(data: Mapping[str, Any], where: str) -> Recording:
+def checked(data: Mapping[str, Any], where: str) -> Recording:
     """Raises LLMError if it is no recording, or its messages are others than its SHA-256 says."""
     try:
         recording = Recording.model_validate({**data, "where": where})

@@ -2,7 +2,7 @@
 
 from contextlib import closing
 
-from proc3s.domain.world import make_world
+from proc3s.domain.world import flaws_of, make_world
 from proc3s.errors import UsageError, blame
 from proc3s.search.problem import Problem
 from proc3s.search.watch import watch
@@ -21,14 +21,14 @@ def check_parts(problem: Problem) -> None:
     for screen in domain.screens:
         screen.load()
     Rollouts(problem).close()
+    if flaws := flaws_of(domain, problem.initial):
+        raise UsageError(f"the scene of {problem.name}, seed {problem.seed}: {'; '.join(flaws)}")
     _set_up(problem, "world", domain.spec.world)
     if domain.spec.execution is not None:
         _set_up(problem, "execution world", domain.spec.execution)
 
 
 def _set_up(problem: Problem, what: str, target: Target) -> None:
-    with blame(what), closing(make_world(problem.domain, target)) as world:
-        if flaws := world.flaws(problem.initial):
-            raise UsageError(f"the scene of {problem.name}, seed {problem.seed}: {'; '.join(flaws)}")
-        with watch().within(problem.step_limit, f"the reset of the {what}"):
-            world.reset(problem.initial)
+    limited = watch().within(problem.step_limit, f"the reset of the {what}")
+    with blame(what), closing(make_world(problem.domain, target)) as world, limited:
+        world.reset(problem.initial)

@@ -3,11 +3,13 @@
 import dataclasses
 import json
 from collections.abc import Iterable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from proc3s import specs
+from proc3s.domain.domain import Domain
 from proc3s.domain.samplers import Space
 from proc3s.domain.world import World
 from proc3s.errors import Issue, SpecError, UsageError, blame
@@ -16,7 +18,7 @@ from proc3s.planning.limits import make_limits
 from proc3s.planning.options import DEFAULT_SOLVER, RunOptions
 from proc3s.planning.parts import Setup
 from proc3s.plugins.part_options import part_options
-from proc3s.plugins.registry import Registry, _template_folders
+from proc3s.plugins.registry import Registry
 from proc3s.prompts.conversation import Exchange, conversation
 from proc3s.prompts.prompter import Prompter
 from proc3s.sandbox.errors import SketchError
@@ -80,6 +82,12 @@ def make_prompter(registry: Registry, options: RunOptions, problem: Problem) -> 
         folders=(*own, *_template_folders(registry, problem.domain)),
         context=registry.plugins.prompt_context(problem, method),
     )
+
+
+def _template_folders(registry: Registry, domain: Domain) -> list[Path]:
+    registered = [spec.folder for spec in registry.all(specs.TemplatesSpec).values()]
+    own = domain.spec.folder / "templates" if domain.spec.folder else None
+    return [*([own] if own and own.is_dir() else []), *reversed(registered)]
 
 
 def first_messages(

@@ -141,12 +141,6 @@ def open_registry(files: Sequence[Path] = (), given: Sequence[object] = ()) -> R
     return Registry(PluginManager(files, given))
 
 
-def _template_folders(registry: Registry, domain: Domain) -> list[Path]:
-    registered = [spec.folder for spec in registry.all(specs.TemplatesSpec).values()]
-    own = domain.spec.folder / "templates" if domain.spec.folder else None
-    return [*([own] if own and own.is_dir() else []), *reversed(registered)]
-
-
 def folders_of(registry: Registry) -> tuple[Path, ...]:
     """Template folders, of the plugin that loaded last first."""
     return tuple(spec.folder for spec in reversed(registry.all(TemplatesSpec).values()))

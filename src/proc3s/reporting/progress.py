@@ -13,6 +13,7 @@ class SearchProgress:
     """A context manager that hears of events; `samples` is how many a round may take."""
 
     def __init__(self, samples: int, console: Console | None = None, shown: bool = True) -> None:
+        console = console or Console(stderr=True)
         self._samples = samples
         self._progress = Progress(
             TextColumn("  {task.description}"),

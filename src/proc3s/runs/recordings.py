@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import Any
 
-from proc3s.llm.recorder import Recording, _checked, _of_cassette
+from proc3s.llm.recorder import Recording, checked, of_cassette
 from proc3s.llm.types import Completion
 from proc3s.runs.reading import LOG, read_events, started
 
@@ -17,9 +17,7 @@ def read_recordings(path: Path) -> list[Recording] | None:
     if (path / LOG).is_file():
         return _of_run(path)
     cassettes = sorted(path.glob("*.jsonl")) if path.is_dir() else [path]
-    return (
-        [recording for cassette in cassettes for recording in _of_cassette(cassette)] if cassettes else None
-    )
+    return [recording for cassette in cassettes for recording in of_cassette(cassette)] if cassettes else None
 
 
 def _of_run(run: Path) -> list[Recording]:
@@ -34,6 +32,6 @@ def _of_run(run: Path) -> list[Recording]:
         elif event["event"] == "answer_received":
             given = {name: event.get(name) for name in ("round", "candidate", "time", "completion")}
             given |= episode | prompts.get(event["round"], {}) | {"take": str(run), "sampling": None}
-            one = _checked(given, f"{run / LOG}:{number}")
+            one = checked(given, f"{run / LOG}:{number}")
             found.setdefault((one.round, one.candidate, one.sha256, one.completion), one)
     return list(found.values())

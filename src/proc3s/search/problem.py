@@ -5,15 +5,9 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Literal
 
-import numpy as np
-
 from proc3s.domain.domain import Domain
 from proc3s.domain.state import State
-from proc3s.domain.values import Plan
-from proc3s.domain.world import Score
-from proc3s.errors import blame, not_wanted
-from proc3s.search.watch import SECONDS, watch
-from proc3s.specs.base import Target
+from proc3s.search.watch import SECONDS
 from proc3s.specs.domain import ScreenSpec, TaskSpec
 
 
@@ -59,17 +53,3 @@ class Problem:
         """The screens that may be used, of one of the two sorts."""
         wanted = {"all": (True, False), "exact": (True,), "none": ()}[self.screens]
         return tuple(s for s in self.domain.screens if s.exact in wanted and s.stateful == stateful)
-
-
-def _score(problem: Problem, target: Target, final: State, plan: Plan) -> Score:
-    """What one judge says. Raises SpecError if that is no score."""
-    part = f"judge {target.target} of {problem.name}"
-    with blame(part), watch().within(problem.step_limit, part):
-        score = target.load()(final, plan, **target.args)
-    if (
-        isinstance(score, Score)
-        and isinstance(score.reached, bool | np.bool_)
-        and isinstance(score.reason, str)
-    ):
-        return Score(bool(score.reached), score.reason)
-    raise not_wanted(part, score, "a Score of a bool and a reason in words")

@@ -4,14 +4,18 @@ import dataclasses
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
+
 from proc3s.domain.margins import Violation, check
 from proc3s.domain.state import State
 from proc3s.domain.values import Plan
 from proc3s.domain.world import Score, World
+from proc3s.errors import blame, not_wanted
 from proc3s.search.prefix_cache import Failed, Prefix, Prefixes
-from proc3s.search.problem import Problem, _score
+from proc3s.search.problem import Problem
 from proc3s.search.trial import Trial
 from proc3s.search.watch import watch
+from proc3s.specs.base import Target
 
 
 def rollout(world: World[Any], problem: Problem, plan: Plan, prefixes: Prefixes | None = None) -> Trial:
@@ -84,3 +88,17 @@ def judge(problem: Problem, final: State, plan: Plan) -> tuple[Score | None, str
     missed = [score for score in scores if not score.reached]
     reason = missed[0].reason if missed else "; ".join(score.reason for score in scores)
     return Score(not missed, reason), reason
+
+
+def _score(problem: Problem, target: Target, final: State, plan: Plan) -> Score:
+    """What one judge says. Raises SpecError if that is no score."""
+    part = f"judge {target.target} of {problem.name}"
+    with blame(part), watch().within(problem.step_limit, part):
+        score = target.load()(final, plan, **target.args)
+    if (
+        isinstance(score, Score)
+        and isinstance(score.reached, bool | np.bool_)
+        and isinstance(score.reason, str)
+    ):
+        return Score(bool(score.reached), score.reason)
+    raise not_wanted(part, score, "a Score of a bool and a reason in words")

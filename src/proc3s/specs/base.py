@@ -83,14 +83,3 @@ class Target(Spec):
             message = f"{module_name} has no {name!r}{did_you_mean(name, public)}"
             raise SpecError([Issue(self.target, "target", message)])
         return getattr(module, name)
-
-
-def _not_called(*taken: str) -> AfterValidator:
-    """A name that is not one of those that the loop itself gives."""
-
-    def check(name: str) -> str:
-        if name in taken:
-            raise ValueError(f"{name!r} is a name that proc3s itself uses; take another one")
-        return name
-
-    return AfterValidator(check)

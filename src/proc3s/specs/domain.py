@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import (
+    AfterValidator,
     BeforeValidator,
     Field,
     PrivateAttr,
@@ -14,7 +15,19 @@ from pydantic import (
     model_validator,
 )
 
-from proc3s.specs.base import Count, Identifier, ImportString, Sentence, Spec, Target, _not_called
+from proc3s.specs.base import Count, Identifier, ImportString, Sentence, Spec, Target
+
+
+def _not_called(*taken: str) -> AfterValidator:
+    """A name that is not one of those that the loop itself gives."""
+
+    def check(name: str) -> str:
+        if name in taken:
+            raise ValueError(f"{name!r} is a name that proc3s itself uses; take another one")
+        return name
+
+    return AfterValidator(check)
+
 
 TaskName = Annotated[str, Field(pattern=r"^[A-Za-z_][A-Za-z0-9_-]*$", max_length=80)]
 
