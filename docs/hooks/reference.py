@@ -6,6 +6,7 @@ from typing import Any
 
 import models
 import names
+import prompt_templates
 import toolbox
 import typer
 from pydantic import BaseModel
@@ -23,11 +24,12 @@ from proc3s.runs import events
 
 def pages() -> dict[str, str]:
     """Markdown by its place in the site."""
-    registry = open_registry([])
+    registry, registered = open_registry([]), _registered()
     return {
         "reference/cli.md": render("cli.md.j2", commands=commands()),
         "reference/domain-yaml.md": render("specs.md.j2", specs=models.tables(specs.DomainSpec)),
-        "reference/hooks.md": render("hooks.md.j2", hooks=hooks(), specs=_registered()),
+        "reference/hooks.md": render("hooks.md.j2", hooks=hooks(), specs=registered),
+        "reference/prompt-templates.md": prompt_templates.page(registered),
         "reference/python.md": render("python.md.j2", names=names.public()),
         "reference/run-folder.md": render(
             "run_folder.md.j2", events=_events(), summary=_described(summary.Summary)

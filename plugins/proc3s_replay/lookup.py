@@ -10,6 +10,7 @@ from pathlib import Path
 from proc3s import Completion, LLMError, Message, Request, Usage, digest
 from proc3s.errors import did_you_mean
 from proc3s.llm.recorder import Recording
+from proc3s.prompts.text import for_any_python
 from proc3s.runs.reading import LOG
 from proc3s_replay.differences import difference
 
@@ -29,8 +30,8 @@ Take = tuple[str, int]
 class Lookup:
     """Recordings at a path, and which of them answer; missing ones are to be recorded at `record`.
 
-    `repeat` chooses among several answers to one prompt; `lenient` takes one to a prompt with other numbers
-    in its feedback, `stale` the latest one to any other prompt.
+    `repeat` chooses among several answers to one prompt, whatever Python it names; `lenient` takes one to a
+    prompt with other numbers in its feedback, `stale` the latest one to any other prompt.
     """
 
     path: Path
@@ -48,6 +49,8 @@ class Lookup:
         sha256 = digest(request.messages)
         if exact := [r for r in keyed if r.sha256 == sha256]:
             return self._chosen(exact, request)
+        if same := [r for r in keyed if _on_any_python(r.messages) == _on_any_python(request.messages)]:
+            return self._chosen(same, request, "was given to a prompt that names another Python")
         blurred = _blurred(request.messages)
         if self.lenient and (alike := [r for r in keyed if _blurred(r.messages) == blurred]):
             return self._chosen(alike, request, "was given to feedback with other numbers (lenient=true)")
@@ -184,9 +187,16 @@ def _value(value: object) -> str:
     return "as the provider has it" if value is None else str(value)
 
 
+def _on_any_python(messages: Sequence[Message]) -> list[tuple[str, str]]:
+    """Messages without the version of Python that the prompt names."""
+    return [(m.role, for_any_python(m.text) if m.kind == "system" else m.text) for m in messages]
+
+
 def _blurred(messages: Sequence[Message]) -> list[tuple[str, str]]:
-    """Messages without the numbers in feedback; a digit in a name is no number."""
-    return [(m.role, _NUMBER.sub("#", m.text) if m.kind == "feedback" else m.text) for m in messages]
+    """The same without the numbers in feedback; a digit in a name is no number."""
+    texts = _on_any_python(messages)
+    feedback = (m.kind == "feedback" for m in messages)
+    return [(r, _NUMBER.sub("#", t) if f else t) for (r, t), f in zip(texts, feedback, strict=True)]
 
 
 def _what(request: Request) -> str:

@@ -340,6 +340,21 @@ def test_lenient_takes_nothing_else(keep, other):
     assert "another prompt" in refusal(path, other, lenient=True)
 
 
+def on_python(version, **changes):
+    system = Message(role="system", kind="system", text=f"Your program runs in Python {version} alone.\n")
+    return request(task(), **changes).model_copy(update={"messages": (system, task())})
+
+
+def test_an_answer_holds_whatever_python_the_prompt_names(keep):
+    path = keep((on_python("3.11"), "x"))
+    found = replay(path).complete(on_python("3.12"))
+    assert found.text == "x"
+    assert "another Python" in found.notes[0]
+    assert not found.stale
+    assert replay(path).complete(on_python("3.11")).notes == ()
+    assert "another prompt" in refusal(path, on_python("of today"))
+
+
 def test_lenient_prefers_the_very_prompt(tmp_path):
     record(tmp_path / "c.jsonl", (asked_again("off by 1"), "one"))
     record(tmp_path / "c.jsonl", (asked_again("off by 2"), "two"))

@@ -1,7 +1,10 @@
 import hashlib
 import json
+import sys
 
 import pytest
+
+from proc3s.prompts import prompter
 
 TASKS = ["star", "arrow", "letters", "enclosed", "free"]
 METHODS = ["proc3s", "proc3s-nf", "cap", "cap-gaussian", "llm3", "llm3-nf", "llm3-gaussian"]
@@ -230,6 +233,26 @@ def test_checking_a_part(cli, here, within):
     assert "star.cap.md" in found
     assert ("arrow.cap.md" in found) == (within == "drawing")
     assert cli("render-prompt", within, "--check", "approved").code == 0
+
+
+def test_the_prompt_names_the_python_that_runs_the_program(cli):
+    version = f"Python {sys.version_info.major}.{sys.version_info.minor} "
+    assert version in cli("render-prompt", "drawing/star").stdout
+    assert version in cli("render-prompt", "drawing/star", "--method", "cap").stdout
+    assert "Python 3" not in cli("render-prompt", "drawing/star", "--method", "llm3").stdout
+
+
+def test_what_was_approved_on_another_python_is_as_approved(cli, here, monkeypatch):
+    check = ("render-prompt", "drawing/star", "--check", "approved", "--method", "cap")
+    cli(*check, "--update")
+    before = (here / "approved/drawing/star.cap.md").read_text()
+    monkeypatch.setattr(prompter, "PYTHON", "3.99")
+    assert "Python 3.99 " in cli("render-prompt", "drawing/star", "--method", "cap").stdout
+    assert cli(*check).code == 0
+    assert cli(*check, "--update").code == 0
+    assert (here / "approved/drawing/star.cap.md").read_text() == before
+    (here / "approved/drawing/star.cap.md").write_text(before.replace("Draw a star", "Draw a planet"))
+    assert cli(*check).code == 2
 
 
 def test_approving_in_a_place_that_cannot_be_written(cli, here):

@@ -5,18 +5,25 @@ import re
 import sys
 from pathlib import Path
 
+import jinja2
 import pytest
 import typer
 import yaml
+from jinja2.sandbox import ImmutableSandboxedEnvironment
 
 import proc3s
 from proc3s import specs
 from proc3s.cli import app
+from proc3s.feedback.parameters import BoundHit, Separation
+from proc3s.feedback.report import ConstraintReport, Diagnosis, Failure
 from proc3s.llm.call_options import CallOptions
 from proc3s.planning import summary
+from proc3s.planning.options import run_options
+from proc3s.planning.setup import make_problem, make_prompter
 from proc3s.plugins import hookspecs
 from proc3s.plugins.part_options import options_model
 from proc3s.plugins.registry import KINDS, open_registry
+from proc3s.prompts import prompter
 from proc3s.runs import events
 from proc3s_tabletop.catalogue.body_specs import SHAPES
 from proc3s_tabletop.tasks.scenes import Entry
@@ -115,6 +122,59 @@ def test_every_field_of_the_summary_and_the_log_is_described(pages, document):
         if name != "event":
             assert info.description, f"{document.__name__}.{name} does not say what it is"
             assert f"<code>{name}</code>" in pages["reference/run-folder.md"]
+
+
+def _handed_to_templates(monkeypatch):
+    """What each template of a prompt is given, by the name of the template."""
+    given = {}
+    render = jinja2.Template.render
+
+    def spy(template, **variables):
+        given.setdefault(template.name, set()).update(variables)
+        return render(template, **variables)
+
+    monkeypatch.setattr(jinja2.Template, "render", spy)
+    registry, options = open_registry([]), run_options(task="drawing/star")
+    problem = make_problem(registry, options)
+    make_prompter(registry, options, problem).rehearse(problem)
+    return given
+
+
+def test_the_variables_of_a_prompt_are_those_that_it_gets(pages, monkeypatch):
+    page = pages["reference/prompt-templates.md"]
+
+    def named(heading):
+        return set(
+            re.findall(r"^\| <code>(\w+)</code> \| .+ \| .+ \|$", section(page, heading), re.MULTILINE)
+        )
+
+    shared = named("Every template")
+    assert _handed_to_templates(monkeypatch) == {
+        "methods/proc3s.j2": shared,
+        "partials/task.j2": shared | named("partials/task.j2"),
+        "feedback.j2": shared | named("feedback.j2"),
+    }
+
+
+def test_the_filters_of_a_prompt_are_those_of_its_environment(pages, monkeypatch):
+    made = []
+    monkeypatch.setattr(
+        prompter,
+        "ImmutableSandboxedEnvironment",
+        lambda **given: made.append(ImmutableSandboxedEnvironment(**given)) or made[-1],
+    )
+    _handed_to_templates(monkeypatch)
+    own = set(made[0].filters) - set(jinja2.defaults.DEFAULT_FILTERS)
+    listed = section(pages["reference/prompt-templates.md"], "Filters")
+    assert own == set(re.findall(r"^### (\w+)$", listed, re.MULTILINE))
+    assert all(f"{name}(" in listed for name in own)
+
+
+@pytest.mark.parametrize("model", [Diagnosis, Failure, ConstraintReport, Separation, BoundHit])
+def test_every_field_of_a_diagnosis_is_described(pages, model):
+    for name, info in model.model_fields.items():
+        assert info.description, f"{model.__name__}.{name} does not say what it is"
+        assert f"<code>{name}</code>" in pages["reference/prompt-templates.md"]
 
 
 def test_every_hook_is_in_the_reference(pages):

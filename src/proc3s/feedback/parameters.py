@@ -23,21 +23,27 @@ _MOST = 3
 class Separation(BaseModel):
     """The samples that got furthest have this parameter between `low` and `high`."""
 
-    model_config = ConfigDict(frozen=True)
+    model_config = ConfigDict(frozen=True, use_attribute_docstrings=True)
 
     parameter: str
+    """Its name in `gen_domain`."""
     low: float
+    """In the parameter's unit."""
     high: float
+    """In the parameter's unit."""
 
 
 class BoundHit(BaseModel):
     """The samples that got furthest press against a bound of this parameter."""
 
-    model_config = ConfigDict(frozen=True)
+    model_config = ConfigDict(frozen=True, use_attribute_docstrings=True)
 
     parameter: str
+    """Its name in `gen_domain`."""
     bound: float
+    """In the parameter's unit."""
     side: str
+    """`lower` or `upper`."""
 
 
 def separations(trials: Sequence[Trial], space: Space) -> tuple[Separation, ...]:

@@ -8,7 +8,7 @@ from proc3s.feedback.parameters import BoundHit, Separation
 class Failure(BaseModel):
     """One way in which samples failed: at a step by a violation, or by an error of the program."""
 
-    model_config = ConfigDict(frozen=True)
+    model_config = ConfigDict(frozen=True, use_attribute_docstrings=True)
 
     kind: str
     """Name of the constraint, or of the program error."""
@@ -17,6 +17,7 @@ class Failure(BaseModel):
     step: int | None = None
     """Step of the plan, from 0; None for an error."""
     skill: str | None = None
+    """The skill of that step; `goal` where the plan missed the goal."""
     line: int | None = None
     """Line of the program, for an error."""
     source: str | None = None
@@ -30,9 +31,10 @@ class Failure(BaseModel):
 class ConstraintReport(BaseModel):
     """How one constraint was violated over all samples."""
 
-    model_config = ConfigDict(frozen=True)
+    model_config = ConfigDict(frozen=True, use_attribute_docstrings=True)
 
     constraint: str
+    """Its name; `goal` where plans missed the goal."""
     share: int
     """Percent of the samples whose first violation it is, as `shares` rounds it."""
     steps: tuple[int, ...]
@@ -46,7 +48,7 @@ class ConstraintReport(BaseModel):
 class Diagnosis(BaseModel):
     """Why a round did not end in an accepted plan; one object for the LLM, the console and the log."""
 
-    model_config = ConfigDict(frozen=True)
+    model_config = ConfigDict(frozen=True, use_attribute_docstrings=True)
 
     samples: int
     """Verdicts taken in the round."""

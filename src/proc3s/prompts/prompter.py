@@ -13,13 +13,18 @@ from proc3s.domain.prelude import setup_code
 from proc3s.errors import Issue, SpecError, UsageError, blame, did_you_mean
 from proc3s.feedback.parameters import BoundHit, Separation
 from proc3s.feedback.report import ConstraintReport, Diagnosis, Failure
-from proc3s.feedback.shares import portion
 from proc3s.llm.types import Message, Role
 from proc3s.prompts.examples import example_turns
-from proc3s.prompts.text import state_text
+from proc3s.prompts.variables import (
+    FILTERS,
+    FeedbackVariables,
+    SharedVariables,
+    TaskVariables,
+    plain_data,
+)
+from proc3s.sandbox.process import PYTHON
 from proc3s.search.problem import Problem
 from proc3s.specs.parts import MethodSpec, PresetSpec
-from proc3s.wording import plain
 
 
 @dataclass(frozen=True)
@@ -61,14 +66,14 @@ class Prompter:
 
     def task(self, problem: Problem) -> Message:
         """The initial state and the goal."""
-        text = self._render("partials/task.j2", problem, initial=problem.initial, goal=problem.goal)
+        text = self._render("partials/task.j2", problem, TaskVariables(problem.initial, problem.goal))
         return Message(role="user", kind="task", text=text)
 
     def examples(self, problem: Problem) -> Iterator[Message]:
         """The worked examples, each as a conversation of its own."""
         for example in problem.domain.spec.examples.values():
             state = problem.domain.scene(example, example.seed)
-            text = self._render("partials/task.j2", problem, initial=state, goal=example.instruction)
+            text = self._render("partials/task.j2", problem, TaskVariables(state, example.instruction))
             yield Message(role="user", kind="example", text=text)
             for kind, turn in example_turns(problem, example, self.method.answer):
                 role: Role = "assistant" if kind == "answer" else "user"
@@ -76,15 +81,17 @@ class Prompter:
 
     def feedback(self, problem: Problem, diagnosis: Diagnosis, tried: Sequence[Diagnosis] = ()) -> Message:
         """What the LLM is told about a round that failed, and about later tries that got no further."""
-        variables = {"diagnosis": diagnosis.model_dump(), "tried": [other.model_dump() for other in tried]}
-        text = self._render("feedback.j2", problem, **variables)
+        text = self._render("feedback.j2", problem, FeedbackVariables(diagnosis, tuple(tried)))
         return Message(role="user", kind="feedback", text=text)
 
-    def _render(self, name: str, problem: Problem, **variables: Any) -> str:
+    def _render(
+        self, name: str, problem: Problem, further: TaskVariables | FeedbackVariables | None = None
+    ) -> str:
+        variables = plain_data(self._shared(problem)) | (plain_data(further) if further else {})
         try:
             template = self._environment.get_template(name)
             with blame("template", Exception):  # a function of `prompt_context` may end the process
-                return template.render(**self.context, **self._shared(problem), **variables)
+                return template.render(**self.context, **variables)
         except jinja2.TemplateNotFound as error:
             raise UsageError(self._not_found(str(error.name or name))) from error
         except jinja2.TemplateSyntaxError as error:
@@ -104,20 +111,19 @@ class Prompter:
             keep_trailing_newline=True,
             autoescape=False,
         )
-        environment.filters |= {"state_text": state_text, "portion": portion, "plain": plain}
+        environment.filters |= FILTERS
         return environment
 
-    def _shared(self, problem: Problem) -> dict[str, Any]:
-        """Variables of every template: plain data, since templates come from anyone."""
+    def _shared(self, problem: Problem) -> SharedVariables:
         with_samplers = self.method.answer == "sketch"
-        samplers = problem.domain.samplers if with_samplers else ()
-        return {
-            "domain": problem.domain.spec.model_dump(),
-            "method": self.method.model_dump(),
-            "preset": self.preset.model_dump(),
-            "samplers": [sampler.model_dump() for sampler in samplers],
-            "setup_code": setup_code(problem.domain, with_samplers),
-        }
+        return SharedVariables(
+            domain=problem.domain.spec,
+            method=self.method,
+            preset=self.preset,
+            samplers=problem.domain.samplers if with_samplers else (),
+            setup_code=setup_code(problem.domain, with_samplers),
+            python=PYTHON,
+        )
 
     def _not_found(self, name: str) -> str:
         known = {str(p.relative_to(f)) for f in self.folders for p in f.rglob("*.j2")}

@@ -1,10 +1,18 @@
-"""States as a language model reads them."""
+"""Texts of prompts: states as a language model reads them, and the Python that a prompt names."""
 
 import dataclasses
+import re
 from typing import Any
 
 from proc3s.domain.source_text import source_text
 from proc3s.domain.state import State
+
+_PYTHON = re.compile(r"\bPython \d+\.\d+\b")
+
+
+def for_any_python(text: str) -> str:
+    """A prompt without the version of Python that it names: that of the machine, not of the template."""
+    return _PYTHON.sub("Python", text)
 
 
 def state_text(state: State, decimals: int = 2) -> str:

@@ -14,6 +14,8 @@ from proc3s.sandbox.errors import SandboxUnavailable
 
 Worker: TypeAlias = "subprocess.Popen[bytes]"
 
+PYTHON = f"{sys.version_info.major}.{sys.version_info.minor}"
+"""Version of the interpreter that runs programs: workers are started with the one that runs proc3s."""
 # no key or path of ours; fixed hashing and one BLAS thread so that runs repeat and stay on one core
 _ENVIRONMENT = {
     "LANG": "C.UTF-8",

@@ -10,6 +10,7 @@ from proc3s.cli.handlers.render_prompt import render, unified_diff
 from proc3s.errors import UsageError
 from proc3s.planning.options import run_options
 from proc3s.plugins.registry import Registry
+from proc3s.prompts.text import for_any_python
 from proc3s.runs.folder import markdown
 from proc3s.specs.domain import DomainSpec
 from proc3s.specs.parts import MethodSpec
@@ -25,7 +26,7 @@ def check(registry: Registry, folder: Path, within: str | None, update: bool, gi
     """
     rendered = dict(_all_renderings(registry, within, given))
     try:
-        stale = {name: text for name, text in rendered.items() if _read(folder / name) != text}
+        stale = {name: text for name, text in rendered.items() if not _approved(folder / name, text)}
         orphans = [] if within or "method" in given else list(_orphans(registry, folder, rendered))
         (_approve if update else _report)(folder, stale, orphans)
     except OSError as error:
@@ -55,6 +56,12 @@ def _verdict(changed: int, update: bool) -> str:
     if not changed:
         return "all as approved"
     return f"{changed} approved" if update else f"{changed} not as approved; approve them with --update"
+
+
+def _approved(path: Path, text: str) -> bool:
+    """Whether a file says the same, but for the version of Python: that of the machine it was made on."""
+    approved = _read(path)
+    return approved is not None and for_any_python(approved) == for_any_python(text)
 
 
 def _read(path: Path) -> str | None:
