@@ -227,3 +227,14 @@ def test_the_shipped_suites_name_what_there_is(cli):
 def test_a_suite_of_a_file_runs_its_seeds_outermost(suite, here):
     cells = list(load_suite(here / suite(methods=["cap", "proc3s"], seeds=2)).cells())
     assert [(c.method, c.seed) for c in cells] == [("cap", 0), ("proc3s", 0), ("cap", 1), ("proc3s", 1)]
+
+
+@pytest.mark.slow
+def test_templates_of_ones_own_reach_every_episode(cli, suite, here):
+    (here / "mine/partials").mkdir(parents=True)
+    (here / "mine/partials/task.j2").write_text("A task in words of my own.\n")
+    desk = ("--llm", "manual:desk", "-L", "wait=0")
+    pending = cli("bench", suite(seeds=1), *desk, "--template-dir", "mine", "--out", "out")
+    assert pending.code == 4, pending.stderr
+    (prompt,) = here.glob("desk/*.prompt.md")
+    assert "A task in words of my own." in prompt.read_text()

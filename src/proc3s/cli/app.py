@@ -2,6 +2,7 @@
 
 import contextlib
 import functools
+import inspect
 import sys
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -9,6 +10,7 @@ from typing import Any
 import typer
 
 from proc3s.cli.arguments import with_options
+from proc3s.cli.command_classes import Command, CommandGroup
 from proc3s.cli.commands import (
     bench,
     check,
@@ -30,6 +32,7 @@ from proc3s.errors import Proc3sError
 
 app = typer.Typer(
     name="proc3s",
+    cls=CommandGroup,
     help="Plans for robots from plain language: an LLM writes a program, a solver finds its numbers.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
@@ -77,6 +80,8 @@ _COMMANDS: dict[str, Callable[..., Any]] = {
     "explain": explain.explain,
     "report": report.report,
     "bench": bench.bench,
+    "bench ccsp": bench.ccsp,
+    "bench execution": bench.execution,
     "compare": compare.compare,
     "judge": judge.judge,
     "check": check.check,
@@ -86,10 +91,19 @@ _COMMANDS: dict[str, Callable[..., Any]] = {
     "schema": schema.schema,
     "doctor": doctor.doctor,
 }
+
+
+def _add(group: typer.Typer, name: str, command: Callable[..., Any]) -> None:
+    """Typer keeps the line breaks of a docstring; the help breaks its lines where the terminal ends."""
+    paragraphs = inspect.cleandoc(command.__doc__ or "").split("\n\n")
+    help_ = "\n\n".join(" ".join(text.split()) for text in paragraphs)
+    group.command(name=name, cls=Command, help=help_)(_guarded(with_options(command)))
+
+
 for _name, _command in _COMMANDS.items():
-    app.command(name=_name)(_guarded(with_options(_command)))
+    _add(app, _name, _command)
 for _name, _command in {"domain": new.domain, "solver": new.solver, "llm": new.llm}.items():
-    new.new.command(name=_name)(_guarded(with_options(_command)))
+    _add(new.new, _name, _command)
 app.add_typer(new.new, name="new", no_args_is_help=True)
 
 

@@ -9,8 +9,9 @@ from pathlib import Path
 from typing import Annotated, Any, TypeAlias, get_args, get_origin
 
 import typer
-from annotated_types import Ge
+from annotated_types import Ge, Gt
 
+from proc3s.errors import UsageError
 from proc3s.planning.options import Option, all_options
 
 OPTIONS = all_options()
@@ -20,11 +21,21 @@ Resume: TypeAlias = Annotated[
     Path | None,
     typer.Option("--resume", metavar="RUN", help="go on with a run that was broken off"),
 ]
-Out: TypeAlias = Annotated[Path | None, typer.Option("--out", help="run folder  [default: runs/…]")]
-Json: TypeAlias = Annotated[bool, typer.Option("--json", help="one JSON document on stdout, nothing else")]
-Plugins: TypeAlias = Annotated[
-    list[Path] | None, typer.Option("--plugin", help=OPTIONS["plugins"].field.description)
+Out: TypeAlias = Annotated[
+    Path | None,
+    typer.Option("--out", metavar="PATH", help="run folder (default: runs/…)"),
 ]
+Json: TypeAlias = Annotated[
+    bool,
+    typer.Option("--json", help="one JSON document on stdout, nothing else"),
+]
+Plugins: TypeAlias = Annotated[
+    list[Path] | None,
+    typer.Option("--plugin", metavar="PATH", help=OPTIONS["plugins"].field.description),
+]
+
+_NO = "no_"
+_METAVARS = {int: "N", float: "N", Path: "PATH", str: "NAME"}
 
 Given: TypeAlias = dict[str, Any]
 """What was given of some options, by the names of their fields."""
@@ -57,13 +68,23 @@ def with_options(command: Callable[..., Any]) -> Callable[..., Any]:
     @functools.wraps(command)
     def called(**values: Any) -> Any:
         for group, names in groups.items():
-            taken = {name: values.pop(name) for name in names}
+            taken = {name: _given(values, name) for name in names}
             values[group] = {name: value for name, value in taken.items() if value is not None}
         return command(**values)
 
     shown = [one for parameter in own for one in _expanded(parameter)]
     called.__signature__ = inspect.Signature(shown)  # type: ignore[attr-defined]
     return called
+
+
+def _given(values: Given, name: str) -> Any:
+    """What was given of an option, taken from the values; its flag that says no makes it False."""
+    value = values.pop(name)
+    if not values.pop(_NO + name, None):
+        return value
+    if value:
+        raise UsageError(f"{OPTIONS[name].flag} and {_no(OPTIONS[name])} contradict each other")
+    return False
 
 
 def _fields_of(parameter: inspect.Parameter) -> Fields | None:
@@ -75,22 +96,42 @@ def _expanded(parameter: inspect.Parameter) -> Iterator[inspect.Parameter]:
     if found is None:
         yield parameter.replace(kind=inspect.Parameter.KEYWORD_ONLY)
         return
-    for name in found.names:
-        yield _parameter(OPTIONS[name])
+    for option in map(OPTIONS.__getitem__, found.names):
+        help_ = option.field.description or ""
+        yield _parameter(option, option.name, option.flag, help_)
+        if option.field.annotation == bool | None:  # two flags, since one with two names fills the help
+            yield _parameter(option, _NO + option.name, _no(option), "do not, whatever the preset says")
 
 
-def _parameter(option: Option) -> inspect.Parameter:
+def _no(option: Option) -> str:
+    return f"--no-{option.flag.removeprefix('--')}"
+
+
+def _parameter(option: Option, name: str, flag: str, help_: str) -> inspect.Parameter:
     """The option in typer's terms; None where it is not given, whatever the default of its field."""
-    field, kind = option.field, option.field.annotation
-    pairs, flag = get_origin(kind) is dict, option.flag
-    if kind == bool | None:
-        flag += f"/--no-{flag.removeprefix('--')}"
-    least: Any = next((limit.ge for limit in field.metadata if isinstance(limit, Ge)), None)
-    metavar = "KEY=VALUE" if pairs else None
-    shown = typer.Option(None, flag, metavar=metavar, min=least, help=field.description)
-    return inspect.Parameter(
-        option.name, inspect.Parameter.KEYWORD_ONLY, default=shown, annotation=_type(kind) | None
+    field, kind = option.field, _type(option.field.annotation)
+    least: Any = next(
+        (getattr(m, "ge", getattr(m, "gt", None)) for m in field.metadata if isinstance(m, Ge | Gt)), None
     )
+    shown = typer.Option(
+        None, flag, metavar=_metavar(option), min=least, help=help_, rich_help_panel=option.shown.panel
+    )
+    return inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=shown, annotation=kind | None)
+
+
+def _metavar(option: Option) -> str | None:
+    """What stands for the value; flags have none."""
+    kind = option.field.annotation
+    if get_origin(kind) is dict:
+        return "KEY=VALUE"
+    return option.shown.metavar or next(
+        (word for one, word in _METAVARS.items() if one in _parts(kind)), None
+    )
+
+
+def _parts(kind: Any) -> tuple[Any, ...]:
+    """A type, or those of a union or tuple."""
+    return get_args(kind) or (kind,)
 
 
 def _type(kind: Any) -> Any:

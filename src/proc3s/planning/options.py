@@ -1,7 +1,7 @@
 """Options of a run as plain data."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Any, get_origin
 
@@ -20,13 +20,20 @@ DEFAULT_PRESET = "best"
 
 @dataclass(frozen=True)
 class OnCommandLine:
-    """How the command line has a field, where that is not as `--NAME`; `asks`: only where an LLM is asked."""
+    """How the command line has a field: the panel of the help that shows it, and its flag if not `--NAME`.
 
+    `metavar` stands for the value where the type does not say enough; `asks`: only where an LLM is asked.
+    """
+
+    panel: str
     flag: str = ""
+    metavar: str = ""
     asks: bool = False
 
 
-_ASKS = OnCommandLine(asks=True)
+_LLM = OnCommandLine("LLM", asks=True)
+_SEARCH = OnCommandLine("Search")
+_WORLD = OnCommandLine("World")
 Pairs = dict[str, str]
 
 
@@ -37,58 +44,58 @@ class RunOptions(Spec):
     """
 
     task: str
-    llm: Annotated[str | None, _ASKS] = None
-    """PROVIDER/MODEL, replay[:PATH], manual:DIR or stub:FILE  [default: PROC3S_LLM, proc3s.toml, replay]"""
-    candidates: Annotated[int, _ASKS] = Field(1, ge=1)
+    llm: Annotated[str | None, replace(_LLM, metavar="MODEL")] = None
+    """PROVIDER/MODEL, replay[:PATH], manual:DIR or stub:FILE (default: PROC3S_LLM, proc3s.toml, replay)"""
+    candidates: Annotated[int, _LLM] = Field(1, ge=1)
     """programs asked for at once; they race"""
-    llm_jobs: Annotated[int | None, _ASKS] = Field(None, ge=1)
-    """calls to the LLM in flight  [default: --candidates]"""
-    record: Annotated[Path | None, _ASKS] = None
+    llm_jobs: Annotated[int | None, _LLM] = Field(None, ge=1)
+    """calls to the LLM in flight (default: --candidates)"""
+    record: Annotated[Path | None, _LLM] = None
     """cassette (.jsonl or folder) that keeps every answer"""
-    budget: Annotated[Budget, _ASKS] = Budget()
-    method: str = "proc3s"
+    budget: Annotated[Budget, _LLM] = Budget()
+    method: Annotated[str, _SEARCH] = "proc3s"
     """see `proc3s list methods`"""
-    solver: str | None = None
+    solver: Annotated[str | None, _SEARCH] = None
     """see `proc3s list solvers`"""
-    preset: str = Field(
+    preset: Annotated[str, _SEARCH] = Field(
         DEFAULT_PRESET,
-        description=f"what method and command line leave open  [default: {DEFAULT_PRESET}]",
+        description=f"what method and command line leave open (default: {DEFAULT_PRESET})",
     )
-    executor: str = "serial"
+    executor: Annotated[str, _SEARCH] = "serial"
     """see `proc3s list executors`"""
-    jobs: int = Field(1, ge=1)
+    jobs: Annotated[int, _SEARCH] = Field(1, ge=1)
     """worker processes"""
-    check_goal: bool | None = None
+    check_goal: Annotated[bool | None, _SEARCH] = None
     """accept only plans that satisfy the judge"""
-    no_screens: bool = False
+    no_screens: Annotated[bool, _SEARCH] = False
     """test every plan in the world, even hopeless ones"""
-    audit: int = Field(0, ge=0)
+    audit: Annotated[int, _SEARCH] = Field(0, ge=0)
     """put N rejects of the screens to the world after all"""
-    robust: int = Field(0, ge=0)
-    """accept only plans that also pass K rehearsals with small errors"""
-    seed: int = Field(0, ge=0)
+    robust: Annotated[int, _SEARCH] = Field(0, ge=0)
+    """accept only plans that also pass N rehearsals with small errors"""
+    seed: Annotated[int, _WORLD] = Field(0, ge=0)
     """scene and random draws"""
-    goal: str | None = None
+    goal: Annotated[str | None, replace(_WORLD, metavar="TEXT")] = None
     """an instruction of your own (nobody judges it)"""
-    samples: int | None = Field(None, ge=1)
+    samples: Annotated[int | None, _SEARCH] = Field(None, ge=1)
     """samples per round"""
-    feedback: Annotated[int | None, _ASKS] = Field(None, ge=0)
+    feedback: Annotated[int | None, _LLM] = Field(None, ge=0)
     """feedback rounds"""
-    template_dir: Annotated[Path | None, _ASKS] = None
+    template_dir: Annotated[Path | None, _LLM] = None
     """folder of templates that go before all others"""
-    plugins: Annotated[tuple[Path, ...], OnCommandLine("--plugin")] = ()
+    plugins: Annotated[tuple[Path, ...], replace(_WORLD, flag="--plugin")] = ()
     """a plugin in a loose file, Python or a domain.yaml (repeatable)"""
-    domain_options: Annotated[Pairs, OnCommandLine("-D")] = Field(default_factory=dict)
+    domain_options: Annotated[Pairs, replace(_WORLD, flag="-D")] = Field(default_factory=dict)
     """argument of the task's scene"""
-    method_options: Annotated[Pairs, OnCommandLine("-M")] = Field(default_factory=dict)
+    method_options: Annotated[Pairs, replace(_SEARCH, flag="-M")] = Field(default_factory=dict)
     """field of the method"""
-    solver_options: Annotated[Pairs, OnCommandLine("-S")] = Field(default_factory=dict)
+    solver_options: Annotated[Pairs, replace(_SEARCH, flag="-S")] = Field(default_factory=dict)
     """option of the solver"""
-    llm_options: Annotated[Pairs, OnCommandLine("-L", asks=True)] = Field(default_factory=dict)
+    llm_options: Annotated[Pairs, replace(_LLM, flag="-L")] = Field(default_factory=dict)
     """option of the LLM"""
-    limits: Annotated[Pairs, OnCommandLine("--limit")] = Field(default_factory=dict)
+    limits: Annotated[Pairs, replace(_WORLD, flag="--limit")] = Field(default_factory=dict)
     """limit of the box, e.g. call=2, or of the clock, e.g. round=60"""
-    unsafe_exec: bool = False
+    unsafe_exec: Annotated[bool, _WORLD] = False
     """run programs WITHOUT the kernel's lock; warns each time"""
 
 
@@ -110,10 +117,9 @@ def all_options() -> dict[str, Option]:
     """The options that fill RunOptions, but for its task; those of the budget are options of their own."""
     found: dict[str, Option] = {}
     for name, field in RunOptions.model_fields.items():
-        shown = next((m for m in field.metadata if isinstance(m, OnCommandLine)), OnCommandLine())
-        fields = Budget.model_fields if field.annotation is Budget else {name: field}
-        found |= {each: Option(each, of, shown) for each, of in fields.items()}
-    del found["task"]
+        for shown in (m for m in field.metadata if isinstance(m, OnCommandLine)):
+            fields = Budget.model_fields if field.annotation is Budget else {name: field}
+            found |= {each: Option(each, of, shown) for each, of in fields.items()}
     return found
 
 

@@ -13,7 +13,7 @@ from proc3s.planning.proposals import Question
 from proc3s.planning.readiness import check_parts
 from proc3s.planning.setup import make_prompter, make_setup
 from proc3s.plugins.registry import Registry
-from proc3s.specs.suite import Cell, SuiteSpec
+from proc3s.specs.suite import Cell
 from proc3s.suites.runner import Order
 
 
@@ -33,7 +33,7 @@ def check_order(registry: Registry, order: Order, cells: Sequence[Cell]) -> Boun
     price, bound = price_of(chosen) if llm.live else None, Bound()
     for task, of_task in itertools.groupby(sorted(cells), key=lambda cell: cell.task):
         try:
-            for question, times in _check_task(registry, chosen, list(of_task), order.spec):
+            for question, times in _check_task(registry, chosen, list(of_task), order):
                 bound = bound.plus(bound_of(question, price), times)
         except SpecError:
             raise
@@ -43,13 +43,14 @@ def check_order(registry: Registry, order: Order, cells: Sequence[Cell]) -> Boun
 
 
 def _check_task(
-    registry: Registry, chosen: Chosen, cells: Sequence[Cell], spec: SuiteSpec
+    registry: Registry, chosen: Chosen, cells: Sequence[Cell], order: Order
 ) -> Iterator[tuple[Question, int]]:
     """The first scene of a task in its worlds, and every method's question with how many episodes ask it."""
     checked, seed = False, min(cell.seed for cell in cells)
     for (method, preset), times in Counter((cell.method, cell.preset) for cell in cells).items():
         given = {"task": cells[0].task, "method": method, "preset": preset, "seed": seed}
-        options = RunOptions.model_validate({**given, "samples": spec.samples, "feedback": spec.feedback})
+        given |= {"samples": order.spec.samples, "feedback": order.spec.feedback}
+        options = RunOptions.model_validate({**given, "template_dir": order.template_dir})
         setup = make_setup(registry, options)
         setup.executor.close()
         prompter = make_prompter(registry, options, setup.problem)

@@ -50,6 +50,8 @@ class Order:
     jobs: int = 1
     max_cost: float | None = None
     """US dollars, of all episodes together."""
+    template_dir: Path | None = None
+    """Folder of templates that go before all others; it is among the arguments, too."""
     judged: Mapping[str, bool] = field(default_factory=dict)
     """Tasks that have a judge."""
 

@@ -15,7 +15,10 @@ def check(
         ),
     ],
     seconds: Annotated[
-        float, typer.Option("--seconds", min=0, help="time for finding plans that a screen rejects wrongly")
+        float,
+        typer.Option(
+            "--seconds", metavar="N", min=0, help="time for finding plans that a screen rejects wrongly"
+        ),
     ] = 20.0,
     plugin: a.Plugins = None,
     json: a.Json = False,

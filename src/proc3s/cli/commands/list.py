@@ -9,7 +9,7 @@ from proc3s.cli import arguments as a
 
 def list_(
     kind: Annotated[
-        str | None, typer.Argument(help="domains, tasks, methods, solvers, …; default: all")
+        str | None, typer.Argument(metavar="KIND", help="domains, tasks, methods, solvers, … (default: all)")
     ] = None,
     plugin: a.Plugins = None,
     json: a.Json = False,
@@ -22,7 +22,8 @@ def list_(
 
 def show(
     name: Annotated[
-        str, typer.Argument(help="a domain, a task (domain/task), a method, a solver, an LLM, …")
+        str,
+        typer.Argument(metavar="NAME", help="a domain, a task (domain/task), a method, a solver, an LLM, …"),
     ],
     plugin: a.Plugins = None,
     json: a.Json = False,

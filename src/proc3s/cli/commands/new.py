@@ -5,10 +5,16 @@ from typing import Annotated
 
 import typer
 
-new = typer.Typer(help="Begin a plugin: a complete package that installs and passes its tests.")
+from proc3s.cli.command_classes import CommandGroup
+
+new = typer.Typer(
+    cls=CommandGroup, help="Begin a plugin: a complete package that installs and passes its tests."
+)
 
 Name = Annotated[str, typer.Argument(metavar="NAME", help="lower-case letters, digits and _")]
-Dir = Annotated[Path | None, typer.Option("--dir", help="where the package goes  [default: ./NAME]")]
+Dir = Annotated[
+    Path | None, typer.Option("--dir", metavar="PATH", help="where the package goes (default: ./NAME)")
+]
 
 
 def domain(name: Name, dir_: Dir = None) -> None:

@@ -21,21 +21,34 @@ def render_prompt(
     *,
     task: Annotated[
         str | None,
-        typer.Argument(metavar="[TASK]", help="domain/task; with --check also a domain, or nothing"),
+        typer.Argument(metavar="TASK", help="domain/task; with --check also a domain, or nothing"),
     ] = None,
-    given: Annotated[a.Given, a.fields("method", "preset", "seed", "goal")],
-    round_: Annotated[int, typer.Option("--round", min=0, help="feedback round; needs --from")] = 0,
+    given: Annotated[
+        a.Given,
+        a.fields(
+            *("method", "method_options", "preset", "template_dir"),
+            *("seed", "domain_options", "goal", "plugins"),
+        ),
+    ],
+    round_: Annotated[
+        int, typer.Option("--round", metavar="N", min=0, help="feedback round; needs --from")
+    ] = 0,
     from_: Annotated[
-        Path | None, typer.Option("--from", help="run folder that has the earlier rounds")
+        Path | None, typer.Option("--from", metavar="RUN", help="run folder that has the earlier rounds")
     ] = None,
-    format_: Annotated[Format, typer.Option("--format", help="how messages are printed")] = Format.text,
-    diff: Annotated[Path | None, typer.Option("--diff", help="compare with a rendering or a run")] = None,
+    format_: Annotated[
+        Format, typer.Option("--format", metavar="FORMAT", help="text, markdown or json")
+    ] = Format.text,
+    diff: Annotated[
+        Path | None, typer.Option("--diff", metavar="PATH", help="compare with a rendering or a run")
+    ] = None,
     check: Annotated[
         Path | None,
-        typer.Option("--check", help="compare all renderings with approved files; exit 2 if they differ"),
+        typer.Option(
+            "--check", metavar="DIR", help="compare all renderings with approved files; exit 2 if they differ"
+        ),
     ] = None,
     update: Annotated[bool, typer.Option("--update", help="with --check: approve the renderings")] = False,
-    more: Annotated[a.Given, a.fields("template_dir", "plugins", "domain_options", "method_options")],
 ) -> None:
     """Print exactly what the LLM would be asked. Calls nobody."""
     from proc3s.cli.failures import warn_of_failures
@@ -44,7 +57,6 @@ def render_prompt(
     from proc3s.errors import UsageError
     from proc3s.plugins.registry import open_registry
 
-    given |= more
     registry = open_registry(given.get("plugins", []))
     if check is not None:
         if diff or from_ or round_ or format_ is not Format.text:

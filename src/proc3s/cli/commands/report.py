@@ -12,7 +12,7 @@ def report(
     run: Annotated[Path, typer.Argument(metavar="RUN", help="run folder")],
     open_: Annotated[bool, typer.Option("--open", help="show the page in your browser")] = False,
     out: Annotated[
-        Path | None, typer.Option("--out", help="file of the page  [default: RUN/report.html]")
+        Path | None, typer.Option("--out", metavar="PATH", help="file of the page (default: RUN/report.html)")
     ] = None,
     plugin: a.Plugins = None,
 ) -> None:

@@ -36,7 +36,12 @@ def run(
 def solve(
     *,
     task: a.Task,
-    sketch: Annotated[Path, typer.Option("--sketch", help="file with the program itself")],
+    sketch: Annotated[
+        Path,
+        typer.Option(
+            "--sketch", metavar="PATH", help="file with the program itself", rich_help_panel="Search"
+        ),
+    ],
     given: Annotated[a.Given, a.all_fields(asks=False)],
     out: a.Out = None,
     json: a.Json = False,

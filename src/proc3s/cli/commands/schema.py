@@ -5,7 +5,9 @@ from typing import Annotated
 import typer
 
 
-def schema(kind: Annotated[str, typer.Argument(help="domain, method, solver, …")] = "domain") -> None:
+def schema(
+    kind: Annotated[str, typer.Argument(metavar="KIND", help="domain, method, solver, …")] = "domain",
+) -> None:
     """Print the JSON schema of a spec, for editors and checkers."""
     import json
 

@@ -24,7 +24,6 @@ from proc3s.runs.folder import new_folder
 from proc3s.specs.parts import ExecutorSpec, SolverSpec
 from proc3s.suites.lock import alone_in
 
-SUITES = ("ccsp", "execution")
 STAGES = "program + screens + world + other"
 SEARCHES = (
     *("program", "way", "solved", "samples", "world", "us/sample", STAGES, "s/solution", "samples/s"),
@@ -41,20 +40,17 @@ _WIDTH = 180
 
 
 @dataclass(frozen=True)
-class Wanted:
-    """What a benchmark was asked to do; no task or solver stands for all of them."""
+class SearchesWanted:
+    """What `proc3s bench ccsp` was asked to do; no task or solver stands for all of them."""
 
-    suite: str
     tasks: tuple[str, ...]
     solvers: tuple[str, ...]
     seeds: int
     executor: str
     jobs: int
-    samples: int | None
     throughput: int
-    robust: int
-    times: int
-    plugins: tuple[Path, ...]
+    samples: int | None = None
+    plugins: Sequence[Path] = ()
 
 
 @dataclass
@@ -64,10 +60,10 @@ class Results:
     searches: list[Measurement]
     throughput: list[Measurement]
 
-    def document(self, wanted: Wanted, error: Proc3sError | None) -> dict[str, Any]:
+    def document(self, wanted: SearchesWanted, error: Proc3sError | None) -> dict[str, Any]:
         """Everything as plain data."""
         return {
-            "options": {**asdict(wanted), "plugins": [str(path) for path in wanted.plugins]},
+            "options": {"suite": "ccsp", **asdict(wanted), "plugins": [str(path) for path in wanted.plugins]},
             "time": datetime.now(UTC).isoformat(timespec="seconds"),
             "versions": versions(),
             "error": str(error) if error else None,
@@ -80,25 +76,11 @@ class Results:
         }
 
 
-def refuse_unused(suite: str, options: Mapping[str, Any]) -> None:
-    """Raises UsageError for an option that was given, and changes nothing of this benchmark."""
-    for name, value in options.items():
-        if value is not None:
-            raise UsageError(f"{name} changes nothing of `bench {suite}`; leave it out")
-
-
-def refuse_empty(options: Mapping[str, Sequence[str] | None]) -> None:
-    """Raises UsageError for a list of names that was given without any."""
-    for name, values in options.items():
-        if values is not None and not any(part for value in values for part in value.split(",")):
-            raise UsageError(f"{name} is empty; leave it out, or name some")
-
-
-def run_bench(wanted: Wanted, out: Path | None, as_json: bool) -> None:
+def run_bench(wanted: SearchesWanted, out: Path | None, as_json: bool) -> None:
     """Measure, print and write. What is done when it is interrupted is kept. Raises UsageError."""
     registry = open_registry(wanted.plugins)
     cases, ways = _chosen(registry, wanted)
-    folder, results = made_folder(out, wanted.suite), Results([], [])
+    folder, results = made_folder(out, "ccsp"), Results([], [])
     with alone_in(folder):
         stopped = go_through(_measure(registry, cases, ways, wanted, results), as_json)
         write(folder / "results.md", _markdown(results))
@@ -131,7 +113,7 @@ def deliver(folder: Path, document: Mapping[str, Any], as_json: bool) -> None:
         print_document(text)
 
 
-def _chosen(registry: Registry, wanted: Wanted) -> tuple[list[Case], list[SearchVariant]]:
+def _chosen(registry: Registry, wanted: SearchesWanted) -> tuple[list[Case], list[SearchVariant]]:
     """The cases and ways that are wanted. Raises UsageError for names that do not exist."""
     registry.get(ExecutorSpec, wanted.executor)
     solvers = [registry.get(SolverSpec, name).name for name in wanted.solvers]
@@ -163,7 +145,7 @@ def _measure(
     registry: Registry,
     cases: Sequence[Case],
     ways: Sequence[SearchVariant],
-    wanted: Wanted,
+    wanted: SearchesWanted,
     results: Results,
 ) -> Generator[str]:
     """Fill the results; tells what it does next."""

@@ -2,7 +2,7 @@
 
 import itertools
 from collections.abc import Generator, Sequence
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -12,7 +12,7 @@ from rich.table import Table
 
 from proc3s.benchmark.cases import Case, find_cases
 from proc3s.benchmark.execution_test import FieldTest, field_tests, judged
-from proc3s.cli.handlers.bench import Wanted, deliver, go_through, made_folder
+from proc3s.cli.handlers.bench import deliver, go_through, made_folder
 from proc3s.errors import Proc3sError
 from proc3s.plugins.registry import Registry, open_registry
 from proc3s.plugins.versions import versions
@@ -21,11 +21,23 @@ from proc3s.suites.lock import alone_in
 HEAD = ("program", "rehearsals", "solved", "samples", "satisfied", "share")
 
 
-def run_field_test(wanted: Wanted, out: Path | None, as_json: bool) -> None:
+@dataclass(frozen=True)
+class FieldTestWanted:
+    """What `proc3s bench execution` was asked to do; no task stands for all of them."""
+
+    tasks: tuple[str, ...]
+    seeds: int
+    times: int
+    samples: int | None = None
+    robust: int = 2
+    plugins: Sequence[Path] = ()
+
+
+def run_field_test(wanted: FieldTestWanted, out: Path | None, as_json: bool) -> None:
     """Test, print and write. What is done when it is interrupted is kept. Raises UsageError."""
     registry = open_registry(wanted.plugins)
     cases = judged(find_cases(registry, wanted.tasks), registry)
-    folder, done = made_folder(out, wanted.suite), list[FieldTest]()
+    folder, done = made_folder(out, "execution"), list[FieldTest]()
     with alone_in(folder):
         stopped = go_through(_test(registry, cases, wanted, done), as_json)
         deliver(folder, _document(wanted, done, stopped), as_json)
@@ -35,7 +47,9 @@ def run_field_test(wanted: Wanted, out: Path | None, as_json: bool) -> None:
         raise stopped
 
 
-def _test(registry: Registry, cases: Sequence[Case], wanted: Wanted, done: list[FieldTest]) -> Generator[str]:
+def _test(
+    registry: Registry, cases: Sequence[Case], wanted: FieldTestWanted, done: list[FieldTest]
+) -> Generator[str]:
     """Fill the tests that are done; tells what it does next."""
     robust = tuple(dict.fromkeys((0, wanted.robust)))
     for case, seed in itertools.product(cases, range(wanted.seeds)):
@@ -43,9 +57,15 @@ def _test(registry: Registry, cases: Sequence[Case], wanted: Wanted, done: list[
         done.extend(field_tests(registry, case, seed, robust, wanted.times, wanted.samples))
 
 
-def _document(wanted: Wanted, done: Sequence[FieldTest], error: Proc3sError | None) -> dict[str, Any]:
+def _document(
+    wanted: FieldTestWanted, done: Sequence[FieldTest], error: Proc3sError | None
+) -> dict[str, Any]:
     return {
-        "options": {**asdict(wanted), "plugins": [str(path) for path in wanted.plugins]},
+        "options": {
+            "suite": "execution",
+            **asdict(wanted),
+            "plugins": [str(path) for path in wanted.plugins],
+        },
         "time": datetime.now(UTC).isoformat(timespec="seconds"),
         "versions": versions(),
         "error": str(error) if error else None,

@@ -11,7 +11,7 @@ from typing import Any
 import typer
 
 from proc3s.cli.console.suite import SuiteConsole
-from proc3s.cli.handlers.bench import SUITES, made_folder
+from proc3s.cli.handlers.bench import made_folder
 from proc3s.cli.streams import print_document
 from proc3s.errors import Interrupted, Proc3sError, UsageError, did_you_mean
 from proc3s.llm.budget import Budget
@@ -33,6 +33,9 @@ from proc3s.suites.runner import ALIKE, Order, Runner, remaining
 from proc3s.suites.store import Store
 from proc3s.wording import count
 
+OTHERS = ("ccsp", "execution")
+"""Benchmarks that are no suites; each is a command of its own."""
+
 
 @dataclass(frozen=True)
 class SuiteWanted:
@@ -52,7 +55,8 @@ class SuiteWanted:
     check_goal: bool | None = None
     limits: Sequence[str] = ()
     record: Path | None = None
-    plugins: tuple[Path, ...] = ()
+    template_dir: Path | None = None
+    plugins: Sequence[Path] = ()
     out: Path | None = None
     resume: Path | None = None
 
@@ -62,6 +66,8 @@ def run_suite(wanted: SuiteWanted, as_json: bool) -> None:
 
     Raises UsageError, and the error that left an episode unfinished.
     """
+    if wanted.out and wanted.resume:
+        raise UsageError(f"--out changes nothing: --resume goes on in {wanted.resume}; leave one of them out")
     registry = open_registry(wanted.plugins)
     spec = _spec(registry, wanted)
     order = _order(registry, wanted, spec)
@@ -117,7 +123,9 @@ def _spec(registry: Registry, wanted: SuiteWanted) -> SuiteSpec:
     elif wanted.suite in (suites := registry.all(SuiteSpec)):
         spec = suites[wanted.suite]
     else:
-        known = [*SUITES, *suites]
+        if wanted.suite in OTHERS:
+            raise UsageError(f"`proc3s bench {wanted.suite}` comes first, its options after that")
+        known = [*OTHERS, *suites]
         raise UsageError(f"there is no benchmark {wanted.suite!r}{did_you_mean(wanted.suite, known)}")
     tasks = tuple(t for t in spec.tasks if _named(t, wanted.tasks)) if wanted.tasks else spec.tasks
     for name in wanted.tasks:
@@ -159,6 +167,7 @@ def _order(registry: Registry, wanted: SuiteWanted, spec: SuiteSpec) -> Order:
         llm_jobs=wanted.llm_jobs,
         jobs=wanted.jobs,
         max_cost=wanted.max_cost,
+        template_dir=wanted.template_dir,
         judged=judged,
     )
 
@@ -168,6 +177,8 @@ def _arguments(wanted: SuiteWanted) -> Iterator[str]:
         yield "--check-goal" if wanted.check_goal else "--no-check-goal"
     if wanted.record is not None:
         yield from ("--record", str(wanted.record.resolve()))
+    if wanted.template_dir is not None:
+        yield from ("--template-dir", str(wanted.template_dir.resolve()))
     for path in wanted.plugins:
         yield from ("--plugin", str(path.resolve()))
 
