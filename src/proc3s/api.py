@@ -1,11 +1,13 @@
 """proc3s from Python: `run`, `solve`, `load_run`, `render_prompt`, `tasks`, `get_domain`.
 
-Nothing is printed and nothing exits; mistakes raise the errors of `proc3s` (UsageError, SpecError, LLMError).
+Nothing is printed and nothing exits; mistakes raise the errors of `proc3s` (UsageError, SpecError, LLMError),
+and what was given but changes nothing is a warning of Python's.
 Where the command line takes a name, an object of your own may stand.
 """
 
 import tempfile
-from collections.abc import Callable, Iterator, Sequence
+import warnings
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -16,6 +18,7 @@ from proc3s.llm.config import choose_llm
 from proc3s.llm.function import AskFunction, FunctionLLM
 from proc3s.llm.types import LLM, Message
 from proc3s.planning.options import DEFAULT_PRESET, RunOptions, run_options
+from proc3s.planning.own_templates import unused_templates
 from proc3s.planning.session import Given, Job, Session
 from proc3s.planning.setup import first_messages
 from proc3s.plugins.given_parts import GivenParts
@@ -111,7 +114,10 @@ def render_prompt(
 ) -> tuple[Message, ...]:
     """The messages that an LLM would be asked first. Asks nobody."""
     given = dict(task=task, method=method, preset=preset, seed=seed, goal=goal, **options)
-    return first_messages(_registry(plugins, domain, None, None), _options(given, plugins))
+    registry, wanted = _registry(plugins, domain, None, None), _options(given, plugins)
+    messages = first_messages(registry, wanted)
+    _warn(unused_templates(registry, wanted.template_dir))
+    return messages
 
 
 def tasks(plugins: Plugins = ()) -> list[str]:
@@ -169,9 +175,16 @@ def _carry_out(
     folder = tempfile.TemporaryDirectory(prefix="proc3s_run_") if out is None else None
     path = Path(folder.name) / "run" if folder else Path(out or "")
     session = Session(Job(job.options, path, job.given), [on_event] if on_event else [], registry)
+    _warn(session.notices, above=1)
     with _shown(session, progress):
         ended = session.run()
     return Result(path, registry, ended.summary, folder)
+
+
+def _warn(notices: Iterable[str], above: int = 0) -> None:
+    """Python's warning for each, at the line that called the public function, so many calls further up."""
+    for notice in notices:
+        warnings.warn(notice, stacklevel=3 + above)
 
 
 @contextmanager

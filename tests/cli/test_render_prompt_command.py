@@ -1,5 +1,6 @@
 import hashlib
 import json
+import os
 import sys
 
 import pytest
@@ -153,6 +154,52 @@ def test_a_difference_to_a_file(cli, here):
     assert "\n-Goal: Draw a star" in result.stdout
     assert "\n+Goal: Draw an arrow" in result.stdout
     assert "sha256" in result.stderr
+
+
+@pytest.mark.parametrize("format_", ["text", "markdown", "json"])
+def test_the_format_of_a_file_is_recognized(cli, here, format_):
+    (here / "old").write_text(cli("render-prompt", "drawing/star", "--format", format_).stdout)
+    same = cli("render-prompt", "drawing/star", "--diff", "old")
+    assert (same.code, same.stdout) == (0, "")
+    changed = cli("render-prompt", "drawing/star", "--goal", "Draw a cat.", "--diff", "old").stdout
+    assert sum(line[0] in "+-" for line in changed.splitlines()) == 4
+
+
+def test_a_format_that_is_given_is_used_all_the_same(cli, here):
+    (here / "old").write_text(cli("render-prompt", "drawing/star").stdout)
+    result = cli("render-prompt", "drawing/star", "--diff", "old", "--format", "markdown")
+    assert "\n-[system: system]\n" in result.stdout
+    assert "\n+<!-- system: system -->\n" in result.stdout
+
+
+@pytest.mark.parametrize("format_", ["text", "markdown"])
+def test_a_difference_to_a_pipe(cli, here, format_):
+    text = cli("render-prompt", "drawing/star", "--format", format_).stdout
+    reading, writing = os.pipe()
+    os.write(writing, text.replace("five points", "six points").encode())
+    os.close(writing)
+    try:
+        result = cli("render-prompt", "drawing/star", "--diff", f"/dev/fd/{reading}")
+    finally:
+        os.close(reading)
+    assert result.code == 0
+    changed = [line for line in result.stdout.splitlines() if line[0] in "+-"][2:]
+    assert [line[-12:] for line in changed] == [" six points.", "five points."]
+
+
+def test_what_cannot_be_compared_with(cli, here):
+    (here / "folder").mkdir()
+    (here / "picture").write_bytes(b"\x89PNG\r\n\x1a\n\xff")
+    (here / "secret").write_text("x")
+    (here / "secret").chmod(0)
+    said = {"folder": "no run folder", "picture": "no UTF-8 text", "nowhere": "no rendering or run nowhere"}
+    if os.geteuid():
+        said["secret"] = "Permission denied"
+    for name, words in said.items():
+        result = cli("render-prompt", "drawing/star", "--diff", name)
+        assert (result.code, result.stdout) == (2, "")
+        assert words in result.stderr
+        assert name in result.stderr
 
 
 def test_a_difference_to_a_run(cli):

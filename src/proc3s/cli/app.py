@@ -102,7 +102,13 @@ def _add(group: typer.Typer, name: str, command: Callable[..., Any]) -> None:
 
 for _name, _command in _COMMANDS.items():
     _add(app, _name, _command)
-for _name, _command in {"domain": new.domain, "solver": new.solver, "llm": new.llm}.items():
+_BEGINNINGS: dict[str, Callable[..., Any]] = {
+    "domain": new.domain,
+    "solver": new.solver,
+    "llm": new.llm,
+    "templates": new.templates,
+}
+for _name, _command in _BEGINNINGS.items():
     _add(new.new, _name, _command)
 app.add_typer(new.new, name="new", no_args_is_help=True)
 

@@ -13,6 +13,7 @@ from proc3s.llm.types import Request, Source
 from proc3s.planning.expense import bound_of, in_words
 from proc3s.planning.llm_backend import find_llm, open_llm, price_of
 from proc3s.planning.options import RunOptions
+from proc3s.planning.own_templates import unused_templates
 from proc3s.planning.planner import Outcome, plan
 from proc3s.planning.proposals import Propose, Question, ask_llm, given_program
 from proc3s.planning.readiness import check_parts
@@ -161,6 +162,7 @@ class Session:
         prompter = make_prompter(self.registry, options, problem)
         sampling = chosen.call.sampling(options.seed, options.candidates)
         prompter.rehearse(problem)
+        self.notices += unused_templates(self.registry, options.template_dir)
         question = Question(problem, prompter, sampling, options.llm_jobs or options.candidates)
         llm = open_llm(chosen, options.budget, self._past, options.record, self._charged, self._call_failed)
         llm.prepare()

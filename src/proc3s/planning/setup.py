@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from proc3s import specs
-from proc3s.domain.domain import Domain
 from proc3s.domain.samplers import Space
 from proc3s.domain.world import World
 from proc3s.errors import Issue, SpecError, UsageError, blame
@@ -18,7 +17,7 @@ from proc3s.planning.limits import make_limits
 from proc3s.planning.options import DEFAULT_SOLVER, RunOptions
 from proc3s.planning.parts import Setup
 from proc3s.plugins.part_options import part_options
-from proc3s.plugins.registry import Registry
+from proc3s.plugins.registry import Registry, folders_of
 from proc3s.prompts.conversation import Exchange, conversation
 from proc3s.prompts.prompter import Prompter
 from proc3s.sandbox.errors import SketchError
@@ -74,20 +73,22 @@ def make_prompter(registry: Registry, options: RunOptions, problem: Problem) -> 
     """The prompter of the chosen method; folders in the order user, domain, plugins."""
     method = select_method(registry, options)
     if options.template_dir is not None and not options.template_dir.is_dir():
-        raise UsageError(f"there is no template folder {options.template_dir}")
+        raise UsageError(
+            f"there is no template folder {options.template_dir}; `proc3s new templates` begins one"
+        )
     own = [options.template_dir] if options.template_dir else []
     return Prompter(
         method=method,
         preset=registry.get(specs.PresetSpec, options.preset),
-        folders=(*own, *_template_folders(registry, problem.domain)),
+        folders=(*own, *template_folders(registry, problem.domain.spec)),
         context=registry.plugins.prompt_context(problem, method),
     )
 
 
-def _template_folders(registry: Registry, domain: Domain) -> list[Path]:
-    registered = [spec.folder for spec in registry.all(specs.TemplatesSpec).values()]
-    own = domain.spec.folder / "templates" if domain.spec.folder else None
-    return [*([own] if own and own.is_dir() else []), *reversed(registered)]
+def template_folders(registry: Registry, domain: specs.DomainSpec) -> tuple[Path, ...]:
+    """Folders of templates for prompts of a domain: its own, if it has one, before those of plugins."""
+    own = domain.folder / "templates" if domain.folder else None
+    return (*([own] if own and own.is_dir() else []), *folders_of(registry))
 
 
 def first_messages(

@@ -15,6 +15,7 @@ from proc3s.feedback.parameters import BoundHit, Separation
 from proc3s.feedback.report import ConstraintReport, Diagnosis, Failure
 from proc3s.llm.types import Message, Role
 from proc3s.prompts.examples import example_turns
+from proc3s.prompts.template_files import FEEDBACK, TASK, method_template
 from proc3s.prompts.variables import (
     FILTERS,
     FeedbackVariables,
@@ -61,19 +62,19 @@ class Prompter:
 
     def system(self, problem: Problem) -> Message:
         """What is the same for every task of the domain."""
-        text = self._render(f"methods/{self.method.template}.j2", problem)
+        text = self._render(method_template(self.method), problem)
         return Message(role="system", kind="system", text=text)
 
     def task(self, problem: Problem) -> Message:
         """The initial state and the goal."""
-        text = self._render("partials/task.j2", problem, TaskVariables(problem.initial, problem.goal))
+        text = self._render(TASK, problem, TaskVariables(problem.initial, problem.goal))
         return Message(role="user", kind="task", text=text)
 
     def examples(self, problem: Problem) -> Iterator[Message]:
         """The worked examples, each as a conversation of its own."""
         for example in problem.domain.spec.examples.values():
             state = problem.domain.scene(example, example.seed)
-            text = self._render("partials/task.j2", problem, TaskVariables(state, example.instruction))
+            text = self._render(TASK, problem, TaskVariables(state, example.instruction))
             yield Message(role="user", kind="example", text=text)
             for kind, turn in example_turns(problem, example, self.method.answer):
                 role: Role = "assistant" if kind == "answer" else "user"
@@ -81,7 +82,7 @@ class Prompter:
 
     def feedback(self, problem: Problem, diagnosis: Diagnosis, tried: Sequence[Diagnosis] = ()) -> Message:
         """What the LLM is told about a round that failed, and about later tries that got no further."""
-        text = self._render("feedback.j2", problem, FeedbackVariables(diagnosis, tuple(tried)))
+        text = self._render(FEEDBACK, problem, FeedbackVariables(diagnosis, tuple(tried)))
         return Message(role="user", kind="feedback", text=text)
 
     def _render(

@@ -8,7 +8,7 @@ import typer
 from proc3s.cli.command_classes import CommandGroup
 
 new = typer.Typer(
-    cls=CommandGroup, help="Begin a plugin: a complete package that installs and passes its tests."
+    cls=CommandGroup, help="Begin a plugin, as a complete package with tests, or templates of your own."
 )
 
 Name = Annotated[str, typer.Argument(metavar="NAME", help="lower-case letters, digits and _")]
@@ -30,6 +30,17 @@ def solver(name: Name, dir_: Dir = None) -> None:
 def llm(name: Name, dir_: Dir = None) -> None:
     """A language-model backend, and its tests."""
     _begin("llm", name, dir_)
+
+
+def templates(
+    dir_: Annotated[Path, typer.Option("--dir", metavar="PATH", help="where the templates go")] = Path(
+        "templates"
+    ),
+) -> None:
+    """Templates of prompts: copies of all, to change and to give by --template-dir."""
+    from proc3s.cli.handlers.new_templates import copy_templates
+
+    copy_templates(dir_)
 
 
 def _begin(kind: str, name: str, folder: Path | None) -> None:

@@ -37,10 +37,16 @@ def render_prompt(
         Path | None, typer.Option("--from", metavar="RUN", help="run folder that has the earlier rounds")
     ] = None,
     format_: Annotated[
-        Format, typer.Option("--format", metavar="FORMAT", help="text, markdown or json")
-    ] = Format.text,
+        Format | None,
+        typer.Option(
+            "--format",
+            metavar="FORMAT",
+            help="text, markdown or json (default: text, or that of the --diff file)",
+        ),
+    ] = None,
     diff: Annotated[
-        Path | None, typer.Option("--diff", metavar="PATH", help="compare with a rendering or a run")
+        Path | None,
+        typer.Option("--diff", metavar="PATH", help="compare with a rendering (file or pipe) or a run"),
     ] = None,
     check: Annotated[
         Path | None,
@@ -51,24 +57,28 @@ def render_prompt(
     update: Annotated[bool, typer.Option("--update", help="with --check: approve the renderings")] = False,
 ) -> None:
     """Print exactly what the LLM would be asked. Calls nobody."""
-    from proc3s.cli.failures import warn_of_failures
+    from proc3s.cli.failures import say, warn_of_failures
     from proc3s.cli.handlers import approve_prompts as approval
     from proc3s.cli.handlers import render_prompt as renderings
     from proc3s.errors import UsageError
+    from proc3s.planning.own_templates import unused_templates
     from proc3s.plugins.registry import open_registry
 
     registry = open_registry(given.get("plugins", []))
     if check is not None:
-        if diff or from_ or round_ or format_ is not Format.text:
+        if diff or from_ or round_ or format_:
             raise UsageError(
                 "--check compares whole renderings: it takes no --diff, --from, --round or --format"
             )
-        raise typer.Exit(approval.check(registry, check, task, update, given))
+        code = approval.check(registry, check, task, update, given)
+        say(unused_templates(registry, given.get("template_dir")))
+        raise typer.Exit(code)
     if update:
         raise UsageError("--update goes with --check")
     if task is None:
         raise UsageError("name a task, e.g. drawing/star")
     options = renderings.options_of(task, given, from_)
     messages = renderings.render(registry, options, round_, from_)
-    renderings.show(messages, format_.value, diff, round_)
+    renderings.show(messages, format_.value if format_ else None, diff, round_)
+    say(unused_templates(registry, options.template_dir))
     warn_of_failures(registry)

@@ -28,8 +28,7 @@ def begin(kind: str, name: str, folder: Path) -> None:
     spec, says, first = KINDS[kind]
     registry = open_registry()
     _require_name(registry, spec, name)
-    if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
-        raise UsageError(f"{folder} is there already and not empty; name another folder by --dir")
+    refuse_in_use(folder)
     source = next((f / "new" / kind for f in folders_of(registry) if (f / "new" / kind).is_dir()), None)
     if source is None:
         raise UsageError(f"no plugin brings templates for a {kind} (new/{kind}/)")
@@ -39,7 +38,8 @@ def begin(kind: str, name: str, folder: Path) -> None:
     for path in sorted(p for p in source.rglob(f"*{SUFFIX}")):
         inside = path.relative_to(source).as_posix()
         target = folder / inside.removesuffix(SUFFIX).replace("PACKAGE", package).replace("NAME", name)
-        _write(target, renderer.render(inside, **words))
+        text = renderer.render(inside, **words).rstrip("\n") + "\n"
+        write(target, text.encode())
     typer.echo(f"{folder} is a package that installs and passes its tests:")
     typer.echo(f"  pip install -e '{folder}[dev]' && pytest {folder}")
     typer.echo(f"  {first.format(name=name, folder=folder)}")
@@ -54,9 +54,16 @@ def _require_name(registry: Registry, spec: type[Spec], name: str) -> None:
         raise UsageError(f"there is a {spec.kind.removesuffix('s')} {name!r} already; choose another name")
 
 
-def _write(path: Path, text: str) -> None:
+def refuse_in_use(folder: Path) -> None:
+    """Raises UsageError for a folder that has something in it, or a file."""
+    if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
+        raise UsageError(f"{folder} is there already and not empty; name another folder by --dir")
+
+
+def write(path: Path, data: bytes) -> None:
+    """Write a file and make the folders above it. Raises UsageError."""
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text.rstrip("\n") + "\n", encoding="utf-8")
+        path.write_bytes(data)
     except OSError as error:
         raise UsageError(f"{path} cannot be written: {error.strerror}") from error

@@ -2,6 +2,7 @@
 
 import difflib
 import json
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -54,16 +55,21 @@ def _history(run: Path, rounds: int) -> Iterator[Exchange]:
         yield Exchange(texts[e["round"], e["candidate"]], Diagnosis.model_validate(e["diagnosis"]))
 
 
-def show(messages: tuple[Message, ...], format_: str, diff: Path | None, round_: int) -> None:
-    """Print a rendering, or how it differs; its SHA-256 and size go to stderr."""
-    text = _formatted(messages, format_)
+def show(messages: tuple[Message, ...], format_: str | None, diff: Path | None, round_: int) -> None:
+    """Print a rendering, or how it differs; its SHA-256 and size go to stderr.
+
+    Without `format_` it is that of the file to compare with, else text.
+    """
+    earlier = _earlier(diff, format_ or "text", round_) if diff else ""
+    text = formatted(messages, format_ or _format_of(earlier))
     if diff is not None:
-        text = "".join(unified_diff(_earlier(diff, format_, round_), text, str(diff), "now"))
+        text = "".join(unified_diff(earlier, text, str(diff), "now"))
     print_document(text)
     typer.echo(f"sha256 {digest(messages)}  about {estimate_tokens(messages)} tokens", err=True)
 
 
-def _formatted(messages: tuple[Message, ...], format_: str) -> str:
+def formatted(messages: tuple[Message, ...], format_: str) -> str:
+    """A rendering in one of the formats."""
     if format_ == "json":
         return json.dumps([m.model_dump() for m in messages], indent=2, ensure_ascii=False) + "\n"
     if format_ == "markdown":
@@ -71,19 +77,34 @@ def _formatted(messages: tuple[Message, ...], format_: str) -> str:
     return "\n".join(f"[{m.role}: {m.kind}]\n{m.text.rstrip()}\n" for m in messages)
 
 
+def _format_of(rendering: str) -> str:
+    """Its format, by how it begins."""
+    if re.match(r"<!-- \w+: \w+ -->\n", rendering):
+        return "markdown"
+    return "json" if re.match(r"\[\s*\{", rendering) else "text"
+
+
 def _earlier(path: Path, format_: str, round_: int) -> str:
-    """The text of an earlier rendering: a file, or the prompt of a round in a run folder."""
-    if (path / LOG).is_file():
-        prompts = [event for event in events_of(path, "prompt_rendered") if event["round"] == round_]
-        if not prompts:
-            raise UsageError(f"{path} has no prompt of round {round_}")
-        return _formatted(tuple(Message.model_validate(m) for m in prompts[0]["messages"]), format_)
-    if not path.is_file():
-        raise UsageError(f"there is no rendering or run {path}")
+    """The text of an earlier rendering: a file or pipe, or the prompt of a round in a run folder."""
+    if path.is_dir():
+        return formatted(_prompt_of(path, round_), format_)
     try:
         return read_text(path)
-    except (OSError, UnicodeDecodeError) as error:
-        raise UsageError(f"the rendering {path} cannot be read: {error}") from error
+    except FileNotFoundError as error:
+        raise UsageError(f"there is no rendering or run {path}") from error
+    except UnicodeDecodeError as error:
+        raise UsageError(f"{path} is no rendering of a prompt: it is no UTF-8 text") from error
+    except OSError as error:
+        raise UsageError(f"the rendering {path} cannot be read: {error.strerror}") from error
+
+
+def _prompt_of(run: Path, round_: int) -> tuple[Message, ...]:
+    if not (run / LOG).is_file():
+        raise UsageError(f"{run} is no run folder (it has no {LOG}); --diff takes a run, or one rendering")
+    prompts = [event for event in events_of(run, "prompt_rendered") if event["round"] == round_]
+    if not prompts:
+        raise UsageError(f"{run} has no prompt of round {round_}")
+    return tuple(Message.model_validate(m) for m in prompts[0]["messages"])
 
 
 def unified_diff(old: str, new: str, old_name: str, new_name: str) -> Iterator[str]:

@@ -1,13 +1,13 @@
 """One run from the command line: options to parts, parts to a run folder, a console and a summary."""
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
 import typer
 
 from proc3s.cli.console.run import Console
-from proc3s.cli.failures import warn_of_failures
+from proc3s.cli.failures import say, warn_of_failures
 from proc3s.cli.streams import json_of, print_document
 from proc3s.errors import Proc3sError, UsageError
 from proc3s.llm.config import choose_llm
@@ -63,7 +63,7 @@ def _carried_out(job: Job, quiet: bool) -> Ended:
     if job.options.unsafe_exec:
         typer.echo("proc3s: WARNING: with --unsafe-exec the LLM's programs can read your files", err=True)
     session = Session(job)
-    _tell(session.notices)
+    say(session.notices)
     console = Console(job.options, session.samples, quiet)
     session.listen(console.update)
     if session.expense:
@@ -72,7 +72,7 @@ def _carried_out(job: Job, quiet: bool) -> Ended:
         ended = session.run()
     console.result(ended.summary)
     warn_of_failures(session.registry)
-    _tell(_complaints(ended, job))
+    say(_complaints(ended, job))
     return ended
 
 
@@ -144,8 +144,3 @@ def _resumed(logged: RunOptions, changes: dict[str, Any]) -> RunOptions:
         changes["llm_options"] = {**logged.llm_options, **changes["llm_options"]}
     options = validate(RunOptions, {**logged.model_dump(), **changes}, "options")
     return with_llm(options) if "llm" in changes else options
-
-
-def _tell(sentences: Iterable[str]) -> None:
-    for sentence in sentences:
-        typer.echo(f"proc3s: {sentence}", err=True)
