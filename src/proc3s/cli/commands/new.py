@@ -15,6 +15,7 @@ Name = Annotated[str, typer.Argument(metavar="NAME", help="lower-case letters, d
 Dir = Annotated[
     Path | None, typer.Option("--dir", metavar="PATH", help="where the package goes (default: ./NAME)")
 ]
+TemplatesDir = Annotated[Path, typer.Option("--dir", metavar="PATH", help="where the templates go")]
 
 
 def domain(name: Name, dir_: Dir = None) -> None:
@@ -32,11 +33,7 @@ def llm(name: Name, dir_: Dir = None) -> None:
     _begin("llm", name, dir_)
 
 
-def templates(
-    dir_: Annotated[Path, typer.Option("--dir", metavar="PATH", help="where the templates go")] = Path(
-        "templates"
-    ),
-) -> None:
+def templates(dir_: TemplatesDir = Path("templates")) -> None:
     """Templates of prompts: copies of all, to change and to give by --template-dir."""
     from proc3s.cli.handlers.new_templates import copy_templates
 
