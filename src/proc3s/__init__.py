@@ -18,6 +18,7 @@ __all__ = [*_HOMES]
 def __getattr__(name: str) -> Any:
     if name not in _HOMES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    importlib.import_module("proc3s.errors").refuse_windows()
     return getattr(importlib.import_module(_HOMES[name], __name__), name)
 
 

@@ -1,6 +1,7 @@
 """Errors meant for people: a message without a traceback, and the exit code that goes with it."""
 
 import reprlib
+import sys
 import traceback
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
@@ -21,6 +22,15 @@ class Proc3sError(Exception):
 
 class UsageError(Proc3sError):
     """A wrong name, option or file on the command line (exit code 2)."""
+
+
+def refuse_windows() -> None:
+    """Raises UsageError on Windows: it has none of the file locks, signals and filters that runs need."""
+    if sys.platform == "win32":
+        raise UsageError(
+            "proc3s needs Linux: on Windows, install it inside of WSL 2, or run it in a container "
+            "(docs/how-to/container.md)"
+        )
 
 
 class OutOfTime(Proc3sError):

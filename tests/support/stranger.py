@@ -24,9 +24,9 @@ def install(folder: Path, *packages: str | Path) -> None:
     call(*pip, *packages, cwd=folder)
 
 
-def with_the_wheel(folder: Path) -> None:
+def with_the_wheel(folder: Path, source: Path = ROOT) -> None:
     """Build the wheel and install it, alone, into a new `folder/venv`."""
-    call(sys.executable, "-m", "build", "--wheel", "--outdir", folder, ROOT, cwd=folder)
+    call(sys.executable, "-m", "build", "--wheel", "--outdir", folder, source, cwd=folder)
     venv.create(folder / "venv")
     install(folder, next(folder.glob("*.whl")))
 

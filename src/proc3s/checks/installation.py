@@ -1,10 +1,11 @@
-"""Checks of this installation. They ask no model and spend nothing."""
+"""Checks of this installation. They ask no model and spend nothing; `question` does."""
 
+import platform
 import re
 import site
 import sysconfig
 from collections.abc import Iterator
-from importlib.metadata import PackageNotFoundError, requires, version
+from importlib.metadata import PackageNotFoundError, metadata, requires, version
 from pathlib import Path
 from typing import Literal
 
@@ -60,12 +61,24 @@ def _package(need: Requirement) -> Finding:
     try:
         found = version(need.name)
     except PackageNotFoundError:
+        if need.marker and not any(need.marker.evaluate({"extra": extra}) for extra in _extras()):
+            return _not_for_this_python(need)
         level: Literal["note", "error"] = "note" if need.marker else "error"  # parts of extras may be missing
         return Finding(level=level, subject=need.name, text="is not installed", advice=advice)
     if need.specifier.contains(found, prereleases=True):
         return Finding(level="ok", subject=need.name, text=found)
     text = f"{found} is installed, but only {need.specifier} is known to do"
     return Finding(level="error", subject=need.name, text=text, advice=advice)
+
+
+def _extras() -> list[str]:
+    return metadata("proc3s").get_all("Provides-Extra") or []
+
+
+def _not_for_this_python(need: Requirement) -> Finding:
+    text = f"is not installed: it needs another Python than {platform.python_version()} ({need.marker})"
+    advice = "where you need it, make an environment of Python 3.11: uv venv --python 3.11 --seed"
+    return Finding(level="note", subject=need.name, text=text, advice=advice)
 
 
 def _startup_files() -> Iterator[Finding]:

@@ -28,7 +28,7 @@ from proc3s.cli.commands import (
 )
 from proc3s.cli.commands import list as catalogue
 from proc3s.cli.streams import document_alone, exit_code, take_streams
-from proc3s.errors import Proc3sError
+from proc3s.errors import Proc3sError, refuse_windows
 
 app = typer.Typer(
     name="proc3s",
@@ -51,6 +51,7 @@ def _guarded(command: Callable[..., Any]) -> Callable[..., Any]:
     @functools.wraps(command)
     def guarded(*args: Any, **kwargs: Any) -> None:
         try:
+            refuse_windows()
             with document_alone() if _prints_document(kwargs) else contextlib.nullcontext():
                 command(*args, **kwargs)
         except Proc3sError as error:

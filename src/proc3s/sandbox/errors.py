@@ -94,9 +94,9 @@ class SandboxUnavailable(Proc3sError):
     def __init__(self, reason: str) -> None:
         super().__init__(
             f"programs written by a language model cannot be locked in here: {reason}. They need Linux "
-            "(x86-64 or arm64) with seccomp filters: use such a machine, a virtual machine or WSL 2, leave "
-            "the sandbox or container profile that forbids the filter, or run them unlocked, with all your "
-            "rights and at your own risk, by --unsafe-exec"
+            "(x86-64 or arm64) with seccomp filters: use such a machine, a container, a virtual machine or "
+            "WSL 2, leave the sandbox or container profile that forbids the filter, or run them unlocked, "
+            "with all your rights and at your own risk, by --unsafe-exec"
         )
         self.reason = reason
 
