@@ -14,4 +14,4 @@ def test_every_rendering_is_as_approved() -> None:
     assert result.exit_code == 0, (
         f"approve with: proc3s render-prompt --check tests/prompts --update\n{result.output}"
     )
-    assert len(list(APPROVED.rglob("*.md"))) == 60
+    assert len(list(APPROVED.rglob("*.md"))) == 66

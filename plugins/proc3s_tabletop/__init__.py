@@ -9,6 +9,7 @@ from collections.abc import Callable
 from proc3s import ConstraintSpec, SamplerSpec, SkillSpec, hookimpl
 from proc3s.moved import MovedModules
 from proc3s.specs.domain import ParamSpec
+from proc3s_tabletop import sentences
 
 MovedModules(
     __name__,
@@ -94,6 +95,7 @@ def register_constraints(register: Callable[[ConstraintSpec], None]) -> None:
             "at most 30 mm above the commanded z.",
             tolerance=0.0,
             args={"highest": 0.030},
+            example=sentences.collides("the gripper", "the table", sentences.COLLISIONS["descent"]),
         )
     )
     register(
@@ -104,6 +106,7 @@ def register_constraints(register: Callable[[ConstraintSpec], None]) -> None:
             rule="A pick comes with an empty hand, gets an object well between the fingers, and holds "
             "it fast.",
             tolerance=0.0,
+            example={"why": sentences.nothing_between(None)},
         )
     )
     register(
@@ -115,5 +118,6 @@ def register_constraints(register: Callable[[ConstraintSpec], None]) -> None:
             "in hand stays within 12 mm of its place, and within the bounds of the table.",
             tolerance=0.0,
             args={"moved": 0.012, "turned": 0.25, "lowest": 0.025},
+            example={"why": sentences.out_of_bounds(sentences.TARGET)},
         )
     )

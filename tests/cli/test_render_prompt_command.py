@@ -222,7 +222,11 @@ def test_approving_and_checking(cli, here):
     assert cli("render-prompt", "--check", "approved", "--update").code == 0
     names = {str(p.relative_to(here / "approved")) for p in (here / "approved").rglob("*.md")}
     tasks = cli("list", "tasks", "--json").json["tasks"]
-    assert names == {f"{t}.{m}.md" for t in tasks for m in ("proc3s", "cap", "llm3")}
+    domains = {task.partition("/")[0] for task in tasks}
+    assert names == {
+        *(f"{t}.{m}.md" for t in tasks for m in ("proc3s", "cap", "llm3")),
+        *(f"{d}/feedback/{m}.md" for d in domains for m in ("proc3s", "llm3")),
+    }
     result = cli("render-prompt", "--check", "approved")
     assert (result.code, result.stdout) == (0, "")
 

@@ -15,7 +15,7 @@ from pydantic import (
     model_validator,
 )
 
-from proc3s.specs.base import Count, Identifier, ImportString, Sentence, Spec, Target
+from proc3s.specs.base import Count, Identifier, ImportString, Sentence, Spec, Target, placeholders
 
 
 def _not_called(*taken: str) -> AfterValidator:
@@ -171,8 +171,18 @@ class ConstraintSpec(Target):
     """The rule as a sentence, for prompts that list the constraints."""
     tolerance: float = Field(0.0, ge=0)
     """A margin down to minus this still counts as fulfilled, in the constraint's unit."""
+    example: dict[str, str] = Field(default_factory=dict)
+    """Details of a violation as there may well be one, for prompts that are read before anything failed."""
     domains: tuple[str, ...] = ()
     """Domains that a plugin's constraint attaches to by itself; `*` is every domain."""
+
+    @model_validator(mode="after")
+    def _example_fits(self) -> "ConstraintSpec":
+        details = placeholders(self.says)
+        if strange := [name for name in self.example if name not in details]:
+            taken = ", ".join(details) or "none"
+            raise ValueError(f"the example has a detail {strange[0]!r}, and `says` takes {taken}")
+        return self
 
 
 class ScreenSpec(Target):

@@ -31,10 +31,19 @@ def render_prompt(
         ),
     ],
     round_: Annotated[
-        int, typer.Option("--round", metavar="N", min=0, help="feedback round; needs --from")
-    ] = 0,
+        int | None,
+        typer.Option("--round", metavar="N", min=0, help="feedback round; needs --from or --failure"),
+    ] = None,
     from_: Annotated[
         Path | None, typer.Option("--from", metavar="RUN", help="run folder that has the earlier rounds")
+    ] = None,
+    failure: Annotated[
+        str | None,
+        typer.Option(
+            "--failure",
+            metavar="NAME",
+            help="round 1 after a typical failure: of a constraint, goal, timeout, …",
+        ),
     ] = None,
     format_: Annotated[
         Format | None,
@@ -66,9 +75,10 @@ def render_prompt(
 
     registry = open_registry(given.get("plugins", []))
     if check is not None:
-        if diff or from_ or round_ or format_:
+        if diff or from_ or round_ or failure or format_:
             raise UsageError(
-                "--check compares whole renderings: it takes no --diff, --from, --round or --format"
+                "--check compares whole renderings: "
+                "it takes no --diff, --from, --round, --failure or --format"
             )
         code = approval.check(registry, check, task, update, given)
         say(unused_templates(registry, given.get("template_dir")))
@@ -77,8 +87,10 @@ def render_prompt(
         raise UsageError("--update goes with --check")
     if task is None:
         raise UsageError("name a task, e.g. drawing/star")
+    renderings.require_one_source(round_, from_, failure)
+    shown = 1 if failure else round_ or 0
     options = renderings.options_of(task, given, from_)
-    messages = renderings.render(registry, options, round_, from_)
-    renderings.show(messages, format_.value if format_ else None, diff, round_)
+    messages = renderings.render(registry, options, shown, from_, failure)
+    renderings.show(messages, format_.value if format_ else None, diff, shown)
     say(unused_templates(registry, options.template_dir))
     warn_of_failures(registry)

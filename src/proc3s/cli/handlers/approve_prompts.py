@@ -1,28 +1,34 @@
 """Approved renderings: every prompt of every task as a file that a person has read."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 import typer
 
-from proc3s.cli.handlers.render_prompt import render, unified_diff
+from proc3s.cli.handlers.render_prompt import unified_diff
 from proc3s.errors import UsageError
-from proc3s.planning.options import run_options
+from proc3s.planning.options import RunOptions, run_options
+from proc3s.planning.setup import first_messages
+from proc3s.planning.typical_feedback import typical_feedback
 from proc3s.plugins.registry import Registry
 from proc3s.prompts.text import for_any_python
 from proc3s.runs.folder import markdown
-from proc3s.specs.domain import DomainSpec
+from proc3s.specs.domain import DomainSpec, TaskSpec
 from proc3s.specs.parts import MethodSpec
 from proc3s.textfiles import read_text
 from proc3s.wording import count
+
+_FEEDBACK = "feedback"
+"""The folder within that of a domain: no task's file, whatever the task is called."""
 
 
 def check(registry: Registry, folder: Path, within: str | None, update: bool, given: dict[str, Any]) -> int:
     """Compare all renderings with the approved files; the number is the exit code.
 
-    One file for every task and prompt template: `domain/task.TEMPLATE.md`. Raises UsageError if a file
-    cannot be read or written.
+    One file for every task and prompt template: `domain/task.TEMPLATE.md`; and one for every domain and
+    template with the feedback on typical failures: `domain/feedback/TEMPLATE.md`. Raises UsageError if a
+    file cannot be read or written.
     """
     rendered = dict(_all_renderings(registry, within, given))
     try:
@@ -73,29 +79,58 @@ def _read(path: Path) -> str | None:
 
 def _orphans(registry: Registry, folder: Path, rendered: Mapping[str, str]) -> Iterator[Path]:
     for domain in registry.all(DomainSpec):
-        for path in sorted((folder / domain).glob("*.*.md")):
-            if f"{domain}/{path.name}" not in rendered:
-                yield path
+        found = [*(folder / domain).glob("*.*.md"), *(folder / domain / _FEEDBACK).glob("*.md")]
+        yield from (p for p in sorted(found) if p.relative_to(folder).as_posix() not in rendered)
 
 
 def _all_renderings(
     registry: Registry, within: str | None, given: dict[str, Any]
 ) -> Iterator[tuple[str, str]]:
-    """Every task of the domain or task `within`, for the first method of every template."""
+    """Every task of the domain or task `within`, and the feedback of every domain in it."""
     if within is not None and "/" in within:
         registry.task(within)
     elif within is not None:
         registry.get(DomainSpec, within)
-    methods = {m.template: m.name for m in reversed(registry.all(MethodSpec).values())}
+    methods = registry.all(MethodSpec)
     if "method" in given:
-        chosen = registry.get(MethodSpec, given["method"])
-        methods = {chosen.template: chosen.name}
+        methods = {given["method"]: registry.get(MethodSpec, given["method"])}
     for domain in registry.all(DomainSpec).values():
         for task in domain.tasks.values():
-            name = f"{domain.name}/{task.name}"
-            if within not in (None, domain.name, name):
-                continue
-            goal = given.get("goal") or task.instruction or "(your instruction)"
-            for template, method in sorted(methods.items()):
-                options = run_options(task=name, **{**given, "method": method, "goal": goal})
-                yield f"{name}.{template}.md", markdown(render(registry, options, 0, None))
+            if within in (None, domain.name, f"{domain.name}/{task.name}"):
+                yield from _of_task(registry, domain, task, methods.values(), given)
+        if within in (None, domain.name) and domain.tasks:
+            yield from _feedback(registry, domain, methods.values(), given)
+
+
+def _of_task(
+    registry: Registry,
+    domain: DomainSpec,
+    task: TaskSpec,
+    methods: Iterable[MethodSpec],
+    given: dict[str, Any],
+) -> Iterator[tuple[str, str]]:
+    """The first prompt of a task by every template."""
+    for template, method in _by_template(methods):
+        options = _options(domain, task, method, given)
+        yield f"{domain.name}/{task.name}.{template}.md", markdown(first_messages(registry, options))
+
+
+def _feedback(
+    registry: Registry, domain: DomainSpec, methods: Iterable[MethodSpec], given: dict[str, Any]
+) -> Iterator[tuple[str, str]]:
+    """The feedback on typical failures of one task that has a judge, by every template that gets any."""
+    tasks = sorted(domain.tasks.values(), key=lambda task: not (task.judge and task.instruction))
+    for template, method in _by_template(method for method in methods if method.rounds):
+        found = typical_feedback(registry, _options(domain, tasks[0], method, given))
+        parts = (f"<!-- {name} -->\n\n{message.text.rstrip()}\n" for name, message in sorted(found.items()))
+        yield f"{domain.name}/{_FEEDBACK}/{template}.md", "\n".join(parts)
+
+
+def _by_template(methods: Iterable[MethodSpec]) -> list[tuple[str, MethodSpec]]:
+    """The first method of every template."""
+    return sorted({m.template: m for m in reversed(list(methods))}.items())
+
+
+def _options(domain: DomainSpec, task: TaskSpec, method: MethodSpec, given: dict[str, Any]) -> RunOptions:
+    goal = given.get("goal") or task.instruction or "(your instruction)"
+    return run_options(task=f"{domain.name}/{task.name}", **{**given, "method": method.name, "goal": goal})

@@ -9,6 +9,7 @@ from typing import Any
 
 import typer
 
+from proc3s.cli.failures import say
 from proc3s.cli.streams import print_document
 from proc3s.errors import UsageError
 from proc3s.feedback.report import Diagnosis
@@ -17,6 +18,7 @@ from proc3s.planning.options import RunOptions, run_options
 from proc3s.planning.proposals import proposals_of
 from proc3s.planning.resume import answers_of
 from proc3s.planning.setup import first_messages
+from proc3s.planning.typical_feedback import messages_after
 from proc3s.plugins.registry import Registry
 from proc3s.prompts.conversation import Exchange
 from proc3s.runs.folder import markdown
@@ -24,11 +26,27 @@ from proc3s.runs.reading import LOG, events_of, read_events, started
 from proc3s.textfiles import read_text
 
 
-def render(registry: Registry, options: RunOptions, round_: int, run: Path | None) -> tuple[Message, ...]:
-    """The messages of a round; rounds after the first take answers and diagnoses from a run folder."""
-    if round_ and run is None:
-        raise UsageError("--round needs --from RUN, which has the answers of the earlier rounds")
-    return first_messages(registry, options, _history(run, round_) if run else ())
+def require_one_source(round_: int | None, run: Path | None, failure: str | None) -> None:
+    """Raises UsageError unless it is certain where the answers of the earlier rounds come from."""
+    if failure is not None and (run is not None or round_ not in (None, 1)):
+        raise UsageError(
+            "--failure shows round 1 after an example of a failure: it takes no --from and no other --round"
+        )
+    if round_ and run is None and failure is None:
+        raise UsageError(
+            "--round needs --from RUN, which has the answers of the earlier rounds, or --failure NAME"
+        )
+
+
+def render(
+    registry: Registry, options: RunOptions, round_: int, run: Path | None, failure: str | None
+) -> tuple[Message, ...]:
+    """The messages of a round; those after the first come from a run folder, or after a typical failure."""
+    if failure is None:
+        return first_messages(registry, options, _history(run, round_) if run else ())
+    messages = messages_after(registry, options, failure)
+    say([f"this is an example of the failure {failure}: no program was run"])
+    return messages
 
 
 def options_of(task: str, given: dict[str, Any], run: Path | None) -> RunOptions:
