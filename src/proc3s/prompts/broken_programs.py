@@ -28,38 +28,41 @@ class BrokenProgram:
 def broken_programs(problem: Problem, answer: str) -> Iterator[tuple[str, BrokenProgram]]:
     """(name, program) for a kind of answer: `sketch`, `program` or `plan`."""
     skill = next(iter(problem.domain.signatures(problem.initial)), None)
-    call, short = (_call(skill), _call(skill, left_out=1)) if skill else ("", "")
     if answer == "plan":
-        yield (
-            "syntax",
-            _broken(SketchSyntaxError, "SyntaxError: '[' was never closed", 1, f"gen_plan = [{call}"),
-        )
-        if skill and skill.params:
-            text = _miscounted(skill)
-            yield "arguments", _broken(SketchContractError, text, 1, f"gen_plan = [{short}]")
+        yield from _plans(skill)
         return
-    sampler = next((s for s in problem.domain.samplers if s.gives in ("float", "choice")), None)
-    head, domain = "def gen_plan(initial):", ""
-    if answer == "sketch" and sampler:
-        head = "def gen_plan(initial, x):"
-        domain = f'\n\n\ndef gen_domain(initial):\n    return {{"x": {_made(sampler)}}}'
-    good = f"    return [{call}]"
-    start = f'{head}\n    start = {{}}["start"]\n{good}{domain}'
-    yield "exception", _broken(SketchRuntimeError, "KeyError: 'start'", 2, start, in_samples=True)
-    endless = f"one call of gen_plan took longer than {Limits().call:g} s"
-    endless += ", in all of 3 samples" if domain else ""
-    yield "timeout", _broken(SketchTimeout, endless, 2, f"{head}\n    while True: start = 0\n{good}{domain}")
-    unclosed = f"{head.removesuffix(':')}\n{good}{domain}"
-    yield "syntax", _broken(SketchSyntaxError, "SyntaxError: expected ':'", 1, unclosed)
+    numbers = (sampler for sampler in problem.domain.samplers if sampler.gives in ("float", "choice"))
+    sampler = next(numbers, None) if answer == "sketch" else None
+    yield from _functions(skill, _made(sampler) if sampler else "")
+
+
+def _plans(skill: Signature | None) -> Iterator[tuple[str, BrokenProgram]]:
+    open_list = f"gen_plan = [{_call(skill)}"
+    yield "syntax", _broken(SketchSyntaxError, "SyntaxError: '[' was never closed", 1, open_list)
     if skill and skill.params:
-        yield (
-            "arguments",
-            _broken(SketchContractError, _miscounted(skill), 2, f"{head}\n    return [{short}]{domain}"),
-        )
-    if domain and sampler:
+        short = f"gen_plan = [{_call(skill, left_out=1)}]"
+        yield "arguments", _broken(SketchContractError, _miscounted(skill), 1, short)
+
+
+def _functions(skill: Signature | None, sampler: str) -> Iterator[tuple[str, BrokenProgram]]:
+    """`gen_plan`, and with a sampler `gen_domain`; each has one mistake."""
+    head = f"def gen_plan(initial{', x' if sampler else ''})"
+    body = f"    return [{_call(skill)}]"
+    domain = f'\n\n\ndef gen_domain(initial):\n    return {{"x": {sampler}}}' if sampler else ""
+    text, source = "KeyError: 'start'", f'{head}:\n    start = {{}}["start"]\n{body}{domain}'
+    yield "exception", _broken(SketchRuntimeError, text, 2, source, in_samples=True)
+    text = f"one call of gen_plan took longer than {Limits().call:g} s"
+    text += ", in all of 3 samples" if sampler else ""
+    source = f"{head}:\n    while True: start = 0\n{body}{domain}"
+    yield "timeout", _broken(SketchTimeout, text, 2, source)
+    yield "syntax", _broken(SketchSyntaxError, "SyntaxError: expected ':'", 1, f"{head}\n{body}{domain}")
+    if skill and skill.params:
+        source = f"{head}:\n    return [{_call(skill, left_out=1)}]{domain}"
+        yield "arguments", _broken(SketchContractError, _miscounted(skill), 2, source)
+    if sampler:
         text = "gen_domain returned a list, expected a dict of parameter names to samplers"
-        listed = f"{head}\n{good}\n\n\ndef gen_domain(initial):\n    return [{_made(sampler)}]"
-        yield "gen-domain", _broken(SketchContractError, text, 5, listed)
+        source = f"{head}:\n{body}\n\n\ndef gen_domain(initial):\n    return [{sampler}]"
+        yield "gen-domain", _broken(SketchContractError, text, 5, source)
 
 
 def _broken(
@@ -75,8 +78,10 @@ def _miscounted(skill: Signature) -> str:
     return f"step 0: {skill.skill} takes {count} values ({names}), got {count - 1}"
 
 
-def _call(skill: Signature, left_out: int = 0) -> str:
-    """An action of a skill with constant arguments, less the last ones."""
+def _call(skill: Signature | None, left_out: int = 0) -> str:
+    """An action of a skill with constant arguments, less the last ones; "" without a skill."""
+    if skill is None:
+        return ""
     values = ", ".join(map(_value, skill.params[: len(skill.params) - left_out]))
     return f'Action("{skill.skill}", [{values}])'
 
