@@ -34,8 +34,12 @@ class MovedModules:
         """As Python does by itself."""
 
     def exec_module(self, module: ModuleType) -> None:
-        """Let every attribute be looked up where it is now."""
+        """Let every attribute be looked up where it is now; whoever imports the old name is warned."""
+        import warnings  # not above: nothing may be imported while the working directory is on the path
+
         homes = self._moved[module.__name__]
+        text = f"{module.__name__} has moved to {', '.join(homes)}; the old name will be removed"
+        warnings.warn(text, DeprecationWarning, stacklevel=2)
 
         def look_up(name: str) -> Any:
             for home in homes:

@@ -1,12 +1,14 @@
 """What was written for an earlier layout goes on loading."""
 
 import importlib
+import sys
 
 import pytest
 
 import proc3s
 from proc3s.specs.base import Target
 
+pytestmark = pytest.mark.filterwarnings("ignore:.* has moved to:DeprecationWarning")
 TARGETS = [
     "proc3s_tabletop.scenes:scene",
     "proc3s_tabletop.judges:on",
@@ -48,6 +50,13 @@ def test_targets_of_earlier_domain_files_load(address):
 )
 def test_modules_of_earlier_versions_are_found(module, name):
     assert hasattr(importlib.import_module(f"proc3s.{module}"), name)
+
+
+def test_an_old_name_warns_whoever_imports_it(monkeypatch):
+    monkeypatch.delitem(sys.modules, "proc3s.samplers", raising=False)
+    with pytest.warns(DeprecationWarning, match=r"moved to proc3s\.domain\.samplers.*removed") as caught:
+        from proc3s.samplers import Space  # noqa: F401
+    assert caught[0].filename == __file__
 
 
 def test_a_name_that_was_never_there_says_where_the_module_is_now():

@@ -99,7 +99,13 @@ def test_five_mistakes_are_five_lines_in_order(tmp_path):
     [
         ("unit: m}", "unit: m}\n      name: {type: int}", "name: {type: int}", "second time (first in line"),
         ("says:", "sais:", "sais", "unknown key 'sais'; did you mean 'says'?"),
-        ("spec_version: 1", "spec_version: 2", "spec_version", "1"),
+        (
+            "spec_version: 1",
+            "spec_version: 2",
+            "spec_version",
+            "--upgrade proc3s` may bring a newer one), not 2",
+        ),
+        ("spec_version: 1", "spec_version: one", "spec_version", "should be 1, not 'one'"),
         ("state: Scene", "state: Scen", "state:", "did you mean 'Scene'?"),
         ('"toy_world:Wire"', "toy_world.Wire", "toy_world.Wire", "pattern"),
         ("type: object", "type: objekt", "objekt", "'object'"),

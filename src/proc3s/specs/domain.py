@@ -227,11 +227,21 @@ class ExampleSpec(TaskSpec):
     """Seed of its scene."""
 
 
+def _readable(version: object) -> object:
+    """Raises ValueError for a format of a newer proc3s."""
+    if isinstance(version, int) and version > 1:
+        raise ValueError("this proc3s reads format 1 (`pip install --upgrade proc3s` may bring a newer one)")
+    return version
+
+
+SpecVersion = Annotated[Literal[1], BeforeValidator(_readable)]
+
+
 class DomainSpec(Spec):
     """A whole domain, as `domain.yaml` describes it."""
 
     kind: ClassVar[str] = "domains"
-    spec_version: Literal[1]
+    spec_version: SpecVersion
     """Version of this format."""
     name: Identifier
     """The part before the slash in `domain/task`."""
