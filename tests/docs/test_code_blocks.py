@@ -73,12 +73,18 @@ def test_files_of_a_page_are_used_by_its_commands(page):
             assert any(part in others for part in known), f"no command reads {name}"
 
 
+def command_of(words):
+    """The command that the first words name, and the words after them."""
+    command = typer.main.get_command(app)
+    while hasattr(command, "commands") and words:
+        _, command, words = command.resolve_command(typer.Context(command), words)
+    return command, words
+
+
 def understood(words):
     """Whether the command line takes these words: its commands, options and how many arguments."""
-    command = typer.main.get_command(app)
-    while hasattr(command, "commands"):
-        command = command.commands[words.pop(0)]
-    command.make_context("", words)
+    command, rest = command_of(words)
+    command.make_context("", rest)
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
@@ -93,8 +99,6 @@ def test_commands_that_need_a_model_are_understood(page):
 def test_commands_and_options_in_the_text_exist(page):
     text = BLOCK.sub("", page.read_text(encoding="utf-8"))
     for mention in re.findall(r"`proc3s ([a-z][^`]*)`", text):
-        command, words = typer.main.get_command(app), mention.split()
-        while hasattr(command, "commands") and words:
-            command = command.commands[words.pop(0)]
+        command, words = command_of(mention.split())
         options = {name for param in command.params for name in param.opts}
         assert {word for word in words if word.startswith("-")} <= options, mention
