@@ -9,6 +9,7 @@ SPEC = LLMSpec(
     name="litellm",
     summary="A model of any provider, or a local server, through litellm.",
     usage="PROVIDER/MODEL, or litellm/PROVIDER/MODEL",
+    example="anthropic/claude-sonnet-4-5",
     target="proc3s_litellm.backend:LiteLLM",
     options="proc3s_litellm.backend:Options",
     check="proc3s_litellm.checks:check",

@@ -46,6 +46,7 @@ class Replay(LLM):
 
     def __init__(self, path: str, options: Options, record: Path | None = None) -> None:
         self._path = Path(path) if path else None
+        self.bundled_only = self._path is None
         self._repeat = options.repeat
         if self._path is not None and not self._path.exists():
             raise LLMError(f"there is no {self._path} to replay; {_WAYS_OUT}", "no_answer")

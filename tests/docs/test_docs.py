@@ -86,6 +86,7 @@ SLOW = (
     "table-top",
     "table-top-task",
     "use-from-python",
+    "wrap-a-simulator",
     "write-a-domain",
 )
 """Pages whose examples start the program many times, import litellm, simulate an arm, or run tests."""

@@ -91,7 +91,7 @@ def left(folder):
         ({"llm": "openai/gpt-4"}, 3, "needs a key"),
         ({"llm": "replay", "-L": "lenint=true"}, 2, "no option 'lenint'"),
         ({"--limit": "rond=3"}, 2, "there is no limit 'rond'"),
-        ({"--plugin": "nothing.py"}, 2, "there is no file nothing.py"),
+        ({"--plugin": "nothing.py"}, 2, "there is no file or folder nothing.py"),
     ],
 )
 def test_what_is_certain_before_the_first_episode_ends_the_suite_at_once(

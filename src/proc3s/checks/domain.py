@@ -1,5 +1,6 @@
 """The checks of a domain, in the order in which an author should read what they find."""
 
+import re
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -8,9 +9,9 @@ from typing import TypeAlias
 from pydantic import BaseModel, ConfigDict
 
 from proc3s.checks import judging, reading, stepping
-from proc3s.checks.fault import Fault, located
-from proc3s.checks.subject import Subject, explain
-from proc3s.errors import blame
+from proc3s.checks.fault import Fault, NotCheckedError, located
+from proc3s.checks.subject import Subject
+from proc3s.errors import Proc3sError, SpecError, blame
 
 Run: TypeAlias = Callable[[Subject], Iterator[Fault]]
 
@@ -23,6 +24,8 @@ class Check:
     why: str
     mend: str
     run: Run
+    needs: tuple[str, ...] = ()
+    """Checks whose errors would show here again."""
 
 
 class CheckFinding(BaseModel):
@@ -44,6 +47,18 @@ class CheckFinding(BaseModel):
     """How to fix it."""
 
 
+@dataclass(frozen=True)
+class Checked:
+    """What a check found; `unchecked` says why it was not made, or not made to its end."""
+
+    check: Check
+    findings: tuple[CheckFinding, ...]
+    unchecked: str
+    seconds: float
+
+
+RAISED_WHY = "an error in the domain's code ends a run"
+RAISED_MEND = "correct the line that is named"
 CHECKS: tuple[Check, ...] = (
     Check(
         "targets",
@@ -70,10 +85,10 @@ CHECKS: tuple[Check, ...] = (
         reading.prompts,
     ),
     Check(
-        "programs",
-        "bundled programs are what users run first, and what models imitate",
-        "run it by `proc3s solve TASK --sketch FILE` and correct what it says",
-        judging.programs,
+        "judges",
+        "a judge that the untouched scene satisfies judges nothing",
+        "require what the instruction asks for",
+        judging.judges,
     ),
     Check(
         "skills",
@@ -98,6 +113,7 @@ CHECKS: tuple[Check, ...] = (
         "beginnings of plans are remembered: a step from a snapshot must equal that of a replayed plan",
         "save everything that later steps depend on, and restore it exactly in `load`",
         stepping.snapshots,
+        needs=("steps",),
     ),
     Check(
         "margins",
@@ -112,37 +128,70 @@ CHECKS: tuple[Check, ...] = (
         stepping.screens,
     ),
     Check(
-        "judges",
-        "a judge that the untouched scene satisfies judges nothing",
-        "require what the instruction asks for",
-        judging.judges,
+        "programs",
+        "bundled programs are what users run first, and what models imitate",
+        "correct the program; its scene is that of the example",
+        judging.programs,
+        needs=("steps", "snapshots", "screens"),
     ),
 )
 
 
-def examine(subject: Subject) -> Iterator[tuple[Check, list[CheckFinding], float]]:
-    """Every check with its findings and the seconds it took; an exception in a check is its finding."""
+def examine(subject: Subject) -> Iterator[Checked]:
+    """Every check, and what it found."""
     for check in CHECKS:
-        began = time.monotonic()
-        yield check, findings(check, subject), time.monotonic() - began
+        yield examine_one(check, subject)
 
 
-def findings(check: Check, subject: Subject) -> list[CheckFinding]:
-    """What one check finds."""
+def examine_one(check: Check, subject: Subject) -> Checked:
+    """Carry out one check of a subject, after those that it needs.
+
+    An exception of the domain's code is a finding of the first check that meets it; the others are not made.
+    """
+    began = time.monotonic()
     found: list[Fault] = []
+    unchecked = next((f"see {name}" for name in ("targets", *check.needs) if name in subject.wrong), "")
     try:
-        with blame(check.name, Exception):  # a domain's function may raise anything
-            found += check.run(subject)
-    except Exception as error:
-        found.append(Fault(explain(error)))
-    return [
-        CheckFinding(
-            level="error" if fault.error else "note",
-            check=check.name,
-            text=fault.text,
-            where=located(fault.where) or subject.file,
-            why=check.why,
-            mend=fault.mend or check.mend,
-        )
-        for fault in found
-    ]
+        if not unchecked:
+            with blame(check.name, NotCheckedError):
+                for fault in check.run(subject):
+                    found.append(fault)
+    except NotCheckedError as reason:
+        unchecked = str(reason)
+    except Proc3sError as error:
+        raised = list(_raised(error))
+        known = {subject.causes[_key(fault)] for fault in raised if _key(fault) in subject.causes}
+        if known - {check.name}:
+            unchecked = f"see {min(known - {check.name})}"
+        else:
+            found += raised
+            subject.causes |= {_key(fault): check.name for fault in raised}
+    if any(fault.error for fault in found):
+        subject.wrong.add(check.name)
+    findings = tuple(_finding(check, fault, subject) for fault in found)
+    return Checked(check, findings, unchecked, time.monotonic() - began)
+
+
+def _raised(error: Proc3sError) -> Iterator[Fault]:
+    """What the domain's code raised, with its place."""
+    for issue in error.issues if isinstance(error, SpecError) else ():
+        yield Fault(f"{issue.field}: {issue.message}", issue.where, RAISED_MEND, why=RAISED_WHY)
+    if not isinstance(error, SpecError):
+        yield Fault(str(error), mend=RAISED_MEND, why=RAISED_WHY)
+
+
+def _key(fault: Fault) -> str:
+    """The same for an exception of one type at one line, whoever met it, and whatever the values are."""
+    kind = re.search(r"raised (\w+)", fault.text)
+    return f"{fault.where} {kind[1]}" if kind else f"{fault.where} {fault.text}"
+
+
+def _finding(check: Check, fault: Fault, subject: Subject) -> CheckFinding:
+    return CheckFinding(
+        level="error" if fault.error else "note",
+        check=check.name,
+        text=fault.text,
+        where=located(fault.where) or subject.file,
+        why=fault.why or check.why,
+        mend=fault.mend or check.mend,
+    )

@@ -12,12 +12,17 @@ _TARGET = re.compile(r"[\w.]+:\w+")
 
 @dataclass(frozen=True)
 class Fault:
-    """What is wrong; a note where `error` is not set. `where` and `mend` replace what the check says."""
+    """What is wrong; a note where `error` is not set. `where`, `mend` and `why` replace the check's own."""
 
     text: str
     where: str = ""
     mend: str = ""
     error: bool = True
+    why: str = ""
+
+
+class NotCheckedError(Exception):
+    """What a check cannot look at, and why; the reason is found by another check."""
 
 
 def located(where: str) -> str:

@@ -7,13 +7,14 @@ from collections.abc import Iterator
 from typing import Any
 
 from proc3s.checks.fault import Fault
-from proc3s.checks.subject import SEEDS, Subject, explain
+from proc3s.checks.subject import SEEDS, Subject
 from proc3s.domain.source_text import source_text
 from proc3s.domain.world import flaws_of
 from proc3s.errors import Proc3sError, SpecError
 from proc3s.planning.options import RunOptions
 from proc3s.planning.setup import make_prompter
 from proc3s.prompts.conversation import conversation
+from proc3s.wording import count
 
 SLOW = 5.0
 """A scene that takes longer is no scene but a search, s."""
@@ -78,6 +79,7 @@ def _finite(value: Any) -> bool:
 
 def prompts(subject: Subject) -> Iterator[Fault]:
     """The prompt of every task renders for every template of a method."""
+    broken: dict[str, list[str]] = {}
     for name in subject.spec.tasks:
         for method in {method.template: method for method in reversed(subject.methods)}.values():
             problem = subject.problem(name, method=method.name)
@@ -85,7 +87,10 @@ def prompts(subject: Subject) -> Iterator[Fault]:
             try:
                 messages = conversation(make_prompter(subject.registry, options, problem), problem, [])
             except Proc3sError as error:
-                yield Fault(f"the prompt of {name} for {method.name}: {explain(error)}")
+                broken.setdefault(str(error), []).append(f"of {name} for {method.name}")
                 continue
             if problem.goal not in messages[-1].text:
                 yield Fault(f"the prompt of {name} for {method.name} does not end with the instruction")
+    for text, where in broken.items():
+        more = f" and {count(len(where) - 1, 'other')}" if len(where) > 1 else ""
+        yield Fault(f"the prompt {where[0]}{more}: {text}")

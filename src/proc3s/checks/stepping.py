@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from proc3s.checks.fault import Fault
-from proc3s.checks.subject import BundledAnswer, Subject, same
+from proc3s.checks.fault import Fault, NotCheckedError
+from proc3s.checks.subject import NONE, BundledAnswer, Subject, same
 from proc3s.domain.margins import Violation
 from proc3s.domain.plan_batch import PlanBatch
 from proc3s.domain.values import Plan
@@ -29,17 +29,21 @@ FEW = 3
 def skills(subject: Subject) -> Iterator[Fault]:
     """Every skill is used by some plan."""
     used = {action.skill for _, plan in subject.plans(8) for action in plan}
-    for name, spec in subject.spec.skills.items():
-        if name not in used:
-            yield Fault(f"no bundled program uses the skill {name}", spec.target, error=False)
+    unused = {name: spec for name, spec in subject.spec.skills.items() if name not in used}
+    if unused:
+        subject.require_all_plans()
+    for name, spec in unused.items():
+        yield Fault(f"no bundled program uses the skill {name}", spec.target, error=False)
 
 
 def refusals(subject: Subject) -> Iterator[Fault]:
     """Programs that name no skill, or give it other arguments, are refused."""
-    if not subject.answers or not subject.spec.skills:
-        yield Fault("the domain has no bundled program to try its skills with", error=False)
+    if not subject.answers:
+        raise NotCheckedError(NONE)
+    if not subject.spec.skills:
+        yield Fault("the domain has no skill", error=False)
         return
-    answer = dataclasses.replace(subject.answers[0], kind="program")
+    answer = subject.answers[0]
     skill = next(iter(subject.spec.skills.values()))
     bad = {
         "an unknown skill": 'Action("no_such_skill", [])',
@@ -78,6 +82,7 @@ def deterministic(subject: Subject) -> Iterator[Fault]:
 
 def _by_answer(subject: Subject) -> Iterator[tuple[BundledAnswer, list[Plan]]]:
     """A few plans for every task and example, of one program each."""
+    subject.require_plans()
     first = {answer.problem.task.name: (answer, batch) for answer, batch in reversed(subject.batches)}
     for answer, batch in first.values():
         good = [i for i in range(len(batch)) if i not in batch.errors][:FEW]
@@ -147,9 +152,11 @@ def margins(subject: Subject) -> Iterator[Fault]:
             if not math.isfinite(value) and name not in seen:
                 seen.add(name)
                 yield Fault(f"the margin of {name} is {value}", subject.spec.constraints[name].target)
-    for name, spec in subject.spec.constraints.items():
-        if name not in applied:
-            yield Fault(f"{name} applies to no step of a bundled plan", spec.target, error=False)
+    idle = {name: spec for name, spec in subject.spec.constraints.items() if name not in applied}
+    if idle:
+        subject.require_all_plans()
+    for name, spec in idle.items():
+        yield Fault(f"{name} applies to no step of a bundled plan", spec.target, error=False)
 
 
 def _margins(subject: Subject) -> Iterator[Mapping[str, float]]:
@@ -165,6 +172,8 @@ def _margins(subject: Subject) -> Iterator[Mapping[str, float]]:
 def screens(subject: Subject) -> Iterator[Fault]:
     """Screens reject only what the world rejects, whatever is in the batch; exact ones say the same."""
     end = subject.deadline()
+    if subject.domain.screens:
+        subject.require_plans()
     for answer, batch in subject.batches:
         for spec in subject.domain.screens:
             if not spec.stateful and time.monotonic() < end:

@@ -11,12 +11,12 @@ from typing import Any
 
 import numpy as np
 
+from proc3s.checks.fault import NotCheckedError
 from proc3s.domain.domain import Domain
 from proc3s.domain.plan_batch import PlanBatch
 from proc3s.domain.prelude import setup_code
 from proc3s.domain.source_text import source_text
 from proc3s.domain.values import Plan
-from proc3s.errors import Proc3sError
 from proc3s.planning.options import RunOptions
 from proc3s.planning.setup import make_problem
 from proc3s.plugins.registry import Registry
@@ -31,6 +31,7 @@ SEEDS = 4
 """Scenes of every task that are looked at."""
 SAMPLES = 48
 """Samples of every program that plans are taken from."""
+NONE = "no program is bundled, see programs"
 
 
 @dataclass(frozen=True)
@@ -40,9 +41,14 @@ class BundledAnswer:
     name: str
     path: Path
     source: str
-    kind: str
-    """`sketch`, `program` or `plan`, as methods call it."""
+    method: MethodSpec
+    """The method whose answer it is."""
     problem: Problem
+
+    @property
+    def kind(self) -> str:
+        """`sketch`, `program` or `plan`."""
+        return self.method.answer
 
 
 class Subject:
@@ -50,6 +56,10 @@ class Subject:
 
     def __init__(self, registry: Registry, name: str, seconds: float = 20.0) -> None:
         self.registry, self.seconds = registry, seconds
+        self.wrong: set[str] = set()
+        """Checks that found errors."""
+        self.causes: dict[str, str] = {}
+        """What the domain's code raised, and the check that met it first."""
         self.domain: Domain = registry.domain(name)
         self.spec = self.domain.spec
         self.file = str(self.spec.folder / "domain.yaml") if self.spec.folder else f"domain {name}"
@@ -82,13 +92,13 @@ class Subject:
 
     def _of_tasks(self) -> Iterator[BundledAnswer]:
         folder = self.spec.folder / "answers" if self.spec.folder else None
-        kinds = {method.template: method.answer for method in self.methods}
+        methods = {method.template: method for method in reversed(self.methods)}
         for path in sorted(folder.glob("*.md")) if folder else ():
             task, template, *rest = path.name.removesuffix(".md").split(".")
             seeds = [int(part.removeprefix("seed")) for part in rest if part.startswith("seed")]
-            if task in self.spec.tasks and template in kinds:
+            if task in self.spec.tasks and template in methods:
                 problem = self.problem(task, seeds[0] if seeds else 0)
-                yield self._answer(path.name, path, read_text(path), kinds[template], problem)
+                yield self._answer(path.name, path, read_text(path), methods[template], problem)
 
     def _of_examples(self) -> Iterator[BundledAnswer]:
         for example in self.spec.examples.values():
@@ -97,18 +107,20 @@ class Subject:
             problem = self.problem(next(iter(self.spec.tasks)))
             scene = json.dumps(self.domain.states.dump(self.domain.scene(example, example.seed)))
             problem = dataclasses.replace(problem, task=example, scene=scene, goal=example.instruction or "")
-            for kind in sorted({method.answer for method in self.methods}):
+            for kind, method in sorted({method.answer: method for method in reversed(self.methods)}.items()):
                 path = (self.spec.folder or Path()) / "examples" / f"{example.name}.{kind}.md"
                 if path.is_file():
                     texts = [t for turn, t in example_turns(problem, example, kind) if turn == "answer"]
-                    yield self._answer(path.name, path, texts[-1], kind, problem)
+                    yield self._answer(path.name, path, texts[-1], method, problem)
 
-    def _answer(self, name: str, path: Path, text: str, kind: str, problem: Problem) -> BundledAnswer:
+    def _answer(
+        self, name: str, path: Path, text: str, method: MethodSpec, problem: Problem
+    ) -> BundledAnswer:
         try:
             source = extract_program(text)
         except SketchError:
             source = text
-        return BundledAnswer(name, path, source, kind, problem)
+        return BundledAnswer(name, path, source, method, problem)
 
     def sketch(self, answer: BundledAnswer, source: str | None = None) -> BoxedSketch:
         """The program of an answer in its box, or another in its place. Raises SketchError."""
@@ -116,7 +128,7 @@ class Subject:
         return BoxedSketch(
             Program(
                 source=answer.source if source is None else source,
-                answer=answer.kind,  # type: ignore[arg-type]
+                answer=answer.method.answer if source is None else "program",
                 prelude=setup_code(self.domain),
                 initial=source_text(state),
                 signatures=self.domain.signatures(state),
@@ -145,14 +157,21 @@ class Subject:
             good = [i for i in range(len(batch)) if i not in batch.errors][:most]
             yield from ((answer, batch.plan(i)) for i in good)
 
+    def require_plans(self) -> None:
+        """Raises NotCheckedError if there is no plan to try."""
+        if not self.batches:
+            self.require_all_plans()
+
+    def require_all_plans(self) -> None:
+        """Raises NotCheckedError if a bundled program makes no plan."""
+        if not self.answers:
+            raise NotCheckedError(NONE)
+        if idle := [one.name for one in self.answers if one.path not in {a.path for a, _ in self.batches}]:
+            raise NotCheckedError(f"{', '.join(idle)} makes no plan, see programs")
+
     def deadline(self) -> float:
         """When the search for mistakes that began now must end, as `time.monotonic` counts."""
         return time.monotonic() + self.seconds
-
-
-def explain(error: Exception) -> str:
-    """An error for people, without a traceback."""
-    return str(error) if isinstance(error, Proc3sError) else f"{type(error).__name__}: {error}"
 
 
 def same(a: Any, b: Any) -> bool:

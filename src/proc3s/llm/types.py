@@ -129,6 +129,8 @@ class LLM(ABC):
 
     live = True
     """Whether asking costs: calls, tokens, money."""
+    bundled_only = False
+    """Whether it has but the answers that domains bring, which fit the tasks' own instructions."""
     price: Price | None = None
     """None if it is not known."""
 
@@ -151,7 +153,7 @@ class WrappedLLM(LLM):
 
     def __init__(self, llm: LLM) -> None:
         self._llm = llm
-        self.live = llm.live
+        self.live, self.bundled_only = llm.live, llm.bundled_only
 
     def prepare(self) -> None:
         """Prepare the other one."""

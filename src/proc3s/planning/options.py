@@ -84,7 +84,7 @@ class RunOptions(Spec):
     template_dir: Annotated[Path | None, _LLM] = None
     """folder of templates that go before all others"""
     plugins: Annotated[tuple[Path, ...], replace(_WORLD, flag="--plugin")] = ()
-    """a plugin in a loose file, Python or a domain.yaml (repeatable)"""
+    """plugin not installed: .py, domain.yaml or folder (repeatable)"""
     domain_options: Annotated[Pairs, replace(_WORLD, flag="-D")] = Field(default_factory=dict)
     """argument of the task's scene"""
     method_options: Annotated[Pairs, replace(_SEARCH, flag="-M")] = Field(default_factory=dict)

@@ -21,6 +21,7 @@ from proc3s.planning.resume import RunHistory
 from proc3s.planning.setup import make_prompter, make_setup
 from proc3s.planning.summary import Summary, summarize
 from proc3s.planning.unused_options import unused, unused_budget
+from proc3s.planning.ways_on import no_bundled_answer
 from proc3s.plugins.registry import Registry, open_registry
 from proc3s.plugins.versions import versions
 from proc3s.runs.events import (
@@ -165,6 +166,8 @@ class Session:
         self.notices += unused_templates(self.registry, options.template_dir)
         question = Question(problem, prompter, sampling, options.llm_jobs or options.candidates)
         llm = open_llm(chosen, options.budget, self._past, options.record, self._charged, self._call_failed)
+        if llm.bundled_only and problem.goal != problem.task.instruction:
+            raise no_bundled_answer(self.registry, options)
         llm.prepare()
         if not llm.live:
             self.notices += unused_budget(options.budget, chosen.name)

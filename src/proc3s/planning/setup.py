@@ -16,6 +16,7 @@ from proc3s.llm.types import Message
 from proc3s.planning.limits import make_limits
 from proc3s.planning.options import DEFAULT_SOLVER, RunOptions
 from proc3s.planning.parts import Setup
+from proc3s.planning.ways_on import goal_missing
 from proc3s.plugins.part_options import part_options
 from proc3s.plugins.registry import Registry, folders_of
 from proc3s.prompts.conversation import Exchange, conversation
@@ -50,7 +51,7 @@ def make_problem(registry: Registry, options: RunOptions, goal_needed: bool = Tr
         raise UsageError("--goal is empty; leave it out, or say what is to be done")
     goal = options.goal or task.instruction
     if goal is None and goal_needed:
-        raise UsageError(f'{options.task} has no instruction of its own; give one with --goal "…"')
+        raise goal_missing(registry, options)
     preset = registry.get(specs.PresetSpec, options.preset)
     budget = {**domain.spec.budget, **task.budget}
     if options.samples is None and preset.budget not in budget:

@@ -1,35 +1,15 @@
-"""Plugins in loose files, which need no installation."""
+"""Plugins in Python files, which need no installation."""
 
-import importlib.metadata
 import importlib.util
 import sys
-from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
 
 from proc3s.errors import UsageError, blame
-from proc3s.markers import hookimpl
-from proc3s.specs.domain import DomainSpec
-from proc3s.specs.yaml_files import load_domain
 
 LOOSE_FILE = "proc3s_plugins.py"
 
-
 _LOOSE = "__proc3s_loose__"
-
-
-class DomainFile:
-    """A plugin that is a `domain.yaml` and no Python: a domain whose skills other plugins bring."""
-
-    def __init__(self, path: Path) -> None:
-        if not path.is_file():
-            raise UsageError(f"there is no file {path}")
-        self._path = path
-
-    @hookimpl
-    def register_domains(self, register: Callable[[DomainSpec], None]) -> None:
-        """The domain that the file describes."""
-        register(load_domain(self._path))
 
 
 def loose_files() -> tuple[Path, ...]:
@@ -41,7 +21,7 @@ def loose_files() -> tuple[Path, ...]:
 def import_loose_file(path: Path) -> ModuleType:
     """Import a plugin from a file, importable by its stem. Raises UsageError if there is none."""
     if not path.is_file():
-        raise UsageError(f"there is no file {path}")
+        raise UsageError(f"there is no file or folder {path}")
     name = f"proc3s_loose_{path.stem}"
     spec = importlib.util.spec_from_file_location(name, path)
     if spec is None or spec.loader is None:

@@ -1,7 +1,6 @@
 """Plugins: entry points and loose files, each loaded in its own `try`, wrapped in one typed manager."""
 
 import importlib.metadata
-import importlib.util
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -12,9 +11,11 @@ import pluggy
 
 from proc3s.errors import Issue, Proc3sError, SpecError, UsageError, blame, did_you_mean
 from proc3s.plugins import hookspecs
-from proc3s.plugins.loose_files import LOOSE_FILE, DomainFile, import_loose_file
+from proc3s.plugins.loose_files import LOOSE_FILE
+from proc3s.plugins.loose_folders import loose_plugins
 from proc3s.plugins.versions import GROUP
 from proc3s.specs.base import Spec
+from proc3s.specs.domain import DomainSpec
 
 
 @dataclass(frozen=True)
@@ -38,6 +39,8 @@ class PluginManager:
         self._manager = pluggy.PluginManager(GROUP)
         self._manager.add_hookspecs(hookspecs)
         self._explicit = {str(path) for path in files}
+        self.files = tuple(files)
+        """What was named on the command line."""
         self._registered: dict[str, list[tuple[str, Spec]]] | None = None
         self.statuses: dict[str, PluginStatus] = {}
         for entry_point in sorted(importlib.metadata.entry_points(group=GROUP), key=_order):
@@ -47,26 +50,26 @@ class PluginManager:
         loose = Path.cwd() / LOOSE_FILE
         found = [*([loose] if loose.is_file() else []), *files]
         for path in {path.resolve(): path for path in found}.values():
-            name = path.parent.name if path.stem == "domain" else path.stem
-            load: Callable[[Path], object] = (
-                DomainFile if path.suffix in (".yaml", ".yml") else import_loose_file
-            )
-            self._load(PluginStatus(name, str(path)), partial(load, path))
-        for number, plugin in enumerate(given):
-            self._load(PluginStatus(f"given {number}", "this process"), partial(_given, plugin))
+            for plugin in loose_plugins(path):
+                self._load(PluginStatus(plugin.name, str(path)), plugin.load)
+        for number, one in enumerate(given):
+            self._load(PluginStatus(f"given {number}", "this process"), partial(_given, one))
 
     def _load(self, status: PluginStatus, load: Callable[[], Any]) -> None:
-        if status.name in self.statuses:
-            other = self.statuses[status.name]
+        """Load a plugin; nothing happens if it is one that is loaded, installed and named besides, say."""
+        other = self.statuses.get(status.name)
+        if other is not None:
             status = PluginStatus(f"{status.name} ({status.source})", status.source, status.version)
-            self._refuse(status, f"the name is taken by the plugin of {other.source}")
-            return
-        self.statuses[status.name] = status
         try:
             with blame(f"plugin {status.name}"):
                 plugin = load()
+                if self._manager.is_registered(plugin):
+                    return
+                if other is not None:
+                    raise UsageError(f"the name is taken by the plugin of {other.source}")
                 self._refuse_misspelled(plugin)
                 self._manager.register(plugin, name=status.name)
+                self.statuses[status.name] = status
         except Proc3sError as error:
             self._refuse(status, error)
 
@@ -111,7 +114,7 @@ class PluginManager:
         taken: dict[tuple[str, str], str] = {}
         for name in list(self.statuses):
             try:
-                found = self._ask(name)
+                found = [one for one in self._ask(name) if not _known(one[1], registered)]
                 mine = self._names(name, found, taken)
             except Proc3sError as error:
                 self._refuse(self.statuses[name], error)
@@ -185,6 +188,14 @@ def _order(entry_point: importlib.metadata.EntryPoint) -> tuple[bool, str]:
 
 def _add(found: list[tuple[str, Spec]], kind: str, spec: Spec) -> None:
     found.append((kind, _checked(spec, f"register_{kind}")))
+
+
+def _known(spec: Spec, registered: Mapping[str, list[tuple[str, Spec]]]) -> bool:
+    """Whether it is a domain that another plugin read from the same file."""
+    if not isinstance(spec, DomainSpec) or spec.folder is None:
+        return False
+    domains = [one for _, one in registered.get(DomainSpec.kind, []) if isinstance(one, DomainSpec)]
+    return any(one.name == spec.name and one.folder and one.folder.samefile(spec.folder) for one in domains)
 
 
 def _given(plugin: object) -> object:

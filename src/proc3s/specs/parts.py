@@ -84,6 +84,8 @@ class LLMSpec(Target):
     """One sentence for `proc3s list`."""
     usage: str
     """How `--llm` names it."""
+    example: str | None = None
+    """A model that it asks, as after `--llm`; messages name it where a model may help."""
     options: ImportString | None = None
     """pydantic model of its own options (`-L key=value`), beside those that every backend takes."""
     check: ImportString | None = None

@@ -39,7 +39,7 @@ def solve(
     sketch: Annotated[
         Path,
         typer.Option(
-            "--sketch", metavar="PATH", help="file with the program itself", rich_help_panel="Search"
+            "--sketch", metavar="PATH", help="program, or answer (.md) with one", rich_help_panel="Search"
         ),
     ],
     given: Annotated[a.Given, a.all_fields(asks=False)],

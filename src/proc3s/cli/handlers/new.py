@@ -15,10 +15,18 @@ from proc3s.specs.domain import DomainSpec
 from proc3s.specs.parts import LLMSpec, SolverSpec
 
 SUFFIX = ".j2"
-KINDS: Mapping[str, tuple[type[Spec], str, str]] = {
-    "domain": (DomainSpec, "A domain for proc3s.", "proc3s check {folder}"),
-    "solver": (SolverSpec, "A solver for proc3s.", "proc3s run drawing/star --solver {name}"),
-    "llm": (LLMSpec, "A language-model backend for proc3s.", "proc3s show {name}"),
+KINDS: Mapping[str, tuple[type[Spec], str, tuple[str, ...]]] = {
+    "domain": (
+        DomainSpec,
+        "A domain for proc3s.",
+        ("proc3s check {folder}", "proc3s run {name}/gather --plugin {folder}"),
+    ),
+    "solver": (
+        SolverSpec,
+        "A solver for proc3s.",
+        ("proc3s run drawing/star --solver {name} --plugin {folder}",),
+    ),
+    "llm": (LLMSpec, "A language-model backend for proc3s.", ("proc3s show {name} --plugin {folder}",)),
 }
 """Kind, description of the package, and what to try first."""
 
@@ -42,7 +50,8 @@ def begin(kind: str, name: str, folder: Path) -> None:
         write(target, text.encode())
     typer.echo(f"{folder} is a package that installs and passes its tests:")
     typer.echo(f"  pip install -e '{folder}[dev]' && pytest {folder}")
-    typer.echo(f"  {first.format(name=name, folder=folder)}")
+    for command in first:
+        typer.echo(f"  {command.format(name=name, folder=folder)}")
 
 
 def _require_name(registry: Registry, spec: type[Spec], name: str) -> None:

@@ -18,7 +18,9 @@ from proc3s.planning.resume import past_of
 from proc3s.planning.session import Ended, Given, Job, Session
 from proc3s.planning.summary import Summary
 from proc3s.plugins.versions import versions
+from proc3s.prompts.extract import extract_program
 from proc3s.runs.reading import events_of, options_of
+from proc3s.sandbox.errors import SketchError
 from proc3s.specs.yaml_files import validate
 from proc3s.textfiles import read_text
 
@@ -35,11 +37,14 @@ def with_llm(options: RunOptions) -> RunOptions:
 
 
 def read_program(path: Path) -> str:
-    """The text of a program. Raises UsageError if it cannot be read."""
+    """The text of a program, or the program in an answer (`.md`). Raises UsageError if there is none."""
     try:
-        return read_text(path)
+        text = read_text(path)
+        return extract_program(text) if path.suffix == ".md" else text
     except (OSError, UnicodeDecodeError) as error:
         raise UsageError(f"the program {path} cannot be read: {error}") from error
+    except SketchError as error:
+        raise UsageError(f"{path}: {error}") from error
 
 
 def run_task(job: Callable[[], Job], as_json: bool) -> None:
