@@ -1,6 +1,7 @@
 """The canvas: pymunk says which obstacles a line touches, and by how much it clears them."""
 
 import dataclasses
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -66,6 +67,13 @@ class Canvas(World[Stroke]):
 
     def render(self, plan: Plan, path: Path) -> None:
         """A picture of the canvas, later lines darker."""
+        self._draw(path)
+
+    def render_marked(self, plan: Plan, path: Path, marked: Sequence[str]) -> None:
+        """The same, obstacles that are marked with a red rim, and the last line red."""
+        self._draw(path, marked, "red" if plan else "black")
+
+    def _draw(self, path: Path, marked: Sequence[str] = (), last: str = "black") -> None:
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.figure import Figure
         from matplotlib.patches import Circle
@@ -76,10 +84,12 @@ class Canvas(World[Stroke]):
         axes.set(xlim=(0, CANVAS_SIZE), ylim=(0, CANVAS_SIZE), aspect="equal", xlabel="x", ylabel="y")
         for o in self.state.obstacles:
             axes.add_patch(Circle((o.x_pos, o.y_pos), o.radius, color=o.color, alpha=0.5, linewidth=0))
+            if o.name in marked:
+                axes.add_patch(Circle((o.x_pos, o.y_pos), o.radius, fill=False, color="red", linewidth=2.5))
             axes.text(o.x_pos, o.y_pos, o.name, ha="center", va="center", fontsize=7)
         lines = self.state.drawn_lines
         for n, line in enumerate(lines, start=1):
-            shade = str(0.5 * (1 - n / len(lines)))
+            shade = last if n == len(lines) else str(0.5 * (1 - n / len(lines)))
             axes.plot([line.p1_x, line.p2_x], [line.p1_y, line.p2_y], color=shade, linewidth=2)
         figure.savefig(path)
 

@@ -2,7 +2,7 @@
 
 import dataclasses
 from abc import abstractmethod
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -149,6 +149,11 @@ class TabletopWorld(World[Telemetry]):
         """Draw the world after a plan, and at `path` with `-step0`, `-step1`, ... where each step led."""
         colors = {name: getattr(thing, "color", "") for name, thing in self.state.objects.items()}
         engine().draw(self._bodies, colors, self._film, path)
+
+    def render_marked(self, plan: Plan, path: Path, marked: Sequence[str]) -> None:
+        """Draw the world after a plan, with a ring and the name around objects that are marked."""
+        colors = {name: getattr(thing, "color", "") for name, thing in self.state.objects.items()}
+        engine().draw_marked(self._bodies, colors, self.table.snapshot, path, marked)
 
     def facts(self) -> list[str]:
         """How far convex pieces are from their mesh: the 95th percentile of the surfaces' distance."""

@@ -26,6 +26,7 @@ from proc3s.plugins.registry import Registry, open_registry
 from proc3s.reporting.progress import SearchProgress
 from proc3s.result import Result
 from proc3s.runs.events import Emit
+from proc3s.runs.newest import newest_run
 from proc3s.search.solver import Solver
 from proc3s.specs.base import Spec
 from proc3s.specs.domain import DomainSpec
@@ -92,13 +93,18 @@ def solve(
     return _carry_out(job, registry, out, on_event, progress)
 
 
-def load_run(path: Path | str, *, domain: DomainSpec | None = None, plugins: Plugins | None = None) -> Result:
-    """The result that a run folder tells, whoever wrote it. Raises UsageError if it is none.
+def load_run(
+    path: Path | str | None = None, *, domain: DomainSpec | None = None, plugins: Plugins | None = None
+) -> Result:
+    """The result that a run folder tells, by default the newest in `runs`. Raises UsageError if it is none.
 
     Its states are computed anew: give the `domain` if it was an object, `plugins` if they lie elsewhere now.
     """
     given = domain is not None or plugins is not None
-    return Result(Path(path), _registry(plugins or (), domain, None, None) if given else None)
+    return Result(
+        newest_run() if path is None else Path(path),
+        _registry(plugins or (), domain, None, None) if given else None,
+    )
 
 
 def render_prompt(

@@ -23,6 +23,7 @@ from proc3s.planning.setup import make_problem
 from proc3s.planning.summary import Summary
 from proc3s.plugins.registry import Registry, open_registry
 from proc3s.reporting.history import ProgramRecord, Story, read_story
+from proc3s.runs.folder import NEAREST_MISS, SCENE
 from proc3s.search.rollout import carry_out
 from proc3s.specs.domain import SamplerSpec
 from proc3s.specs.yaml_files import validate
@@ -160,14 +161,22 @@ class Result:
         return tuple(seen)
 
     def picture(self, step: int | None = None) -> "Image":
-        """The outcome, or the world after a step (from 0), where it draws one. Raises UsageError without."""
+        """The outcome, of an unsolved run its nearest miss, or the world after a step (from 0), where it
+        draws one. Raises UsageError without."""
         from PIL import Image
 
-        path = self.run_dir / ("plan.png" if step is None else f"plan-step{step}.png")
+        path = self._outcome if step is None else self.run_dir / f"plan-step{step}.png"
         if not path.is_file():
             raise UsageError(f"the run has no picture {path.name}")
         with Image.open(path) as image:
             return image.copy()
+
+    @property
+    def _outcome(self) -> Path:
+        """The picture of what became of the run; the last of those that it may have, if it has none."""
+        names = ["plan.png"] if self.solved else [NEAREST_MISS, "plan.png", SCENE]
+        paths = [self.run_dir / name for name in names]
+        return next((path for path in paths if path.is_file()), paths[-1])
 
     @cached_property
     def _options(self) -> RunOptions:
@@ -189,7 +198,7 @@ class Result:
         return f'<div style="display:flex;gap:1em">{self._picture_tag()}<div>{text}</div></div>'
 
     def _picture_tag(self) -> str:
-        if not (self.run_dir / "plan.png").is_file():
+        if not self._outcome.is_file():
             return ""
         buffer = io.BytesIO()
         self.picture().save(buffer, "png")

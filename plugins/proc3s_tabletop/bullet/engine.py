@@ -39,3 +39,16 @@ class BulletEngine:
         from proc3s_tabletop.bullet.pictures import draw
 
         draw(bodies, colors, film, path)
+
+    def draw_marked(
+        self,
+        bodies: Mapping[str, Body],
+        colors: Mapping[str, str],
+        snapshot: Snapshot,
+        path: Path,
+        marked: Sequence[str],
+    ) -> None:
+        """Write a snapshot to `path`, with a ring around the bodies that are marked."""
+        from proc3s_tabletop.bullet.pictures import draw_marked
+
+        draw_marked(bodies, colors, snapshot, path, marked)

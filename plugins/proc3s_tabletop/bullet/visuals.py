@@ -5,9 +5,12 @@ from itertools import pairwise
 from pathlib import Path
 from typing import TypeAlias
 
+import numpy as np
+
+from proc3s import FloatArray
 from proc3s_tabletop.bullet.client import Client
 from proc3s_tabletop.bullet.collision_shapes import collision_shape
-from proc3s_tabletop.objects.shapes import Bowl, Shape
+from proc3s_tabletop.objects.shapes import Bowl, Mesh, Shape, Surface
 
 Color: TypeAlias = tuple[float, float, float, float]
 
@@ -33,6 +36,11 @@ def create(shape: Shape, client: Client, folder: Path, color: Color) -> int:
         path.write_text(_turned(_profile(shape)), encoding="ascii")
         surface = client.createVisualShape(client.GEOM_MESH, fileName=str(path), rgbaColor=color)
         return int(client.createMultiBody(0, -1, surface))
+    if isinstance(shape, Mesh):
+        path = folder / f"{shape.key[:16]}_surface.obj"
+        path.write_text(_obj(shape.surface), encoding="ascii")
+        surface = client.createVisualShape(client.GEOM_MESH, fileName=str(path), rgbaColor=color)
+        return int(client.createMultiBody(0, -1, surface))
     body = int(client.createMultiBody(0, collision_shape(shape, client, folder), -1))
     client.changeVisualShape(body, -1, rgbaColor=color)
     return body
@@ -51,6 +59,24 @@ def _turned(profile: list[tuple[float, float]]) -> str:
     facets = [_facet(*edge, *turn) for edge in pairwise(profile) for turn in pairwise(turns)]
     faces = ["f " + " ".join(f"{4 * k + i}//{k + 1}" for i in (1, 2, 3, 4)) for k in range(len(facets))]
     return "\n".join([*facets, *faces]) + "\n"
+
+
+def _obj(surface: Surface) -> str:
+    """Triangles as an OBJ file, shaded smoothly."""
+    corners = [f"v {x:.6f} {y:.6f} {z:.6f}" for x, y, z in surface.vertices]
+    normals = [f"vn {x:.5f} {y:.5f} {z:.5f}" for x, y, z in _normals(surface)]
+    faces = [" ".join(["f", *(f"{k + 1}//{k + 1}" for k in face)]) for face in surface.faces]
+    return "\n".join([*corners, *normals, *faces]) + "\n"
+
+
+def _normals(surface: Surface) -> FloatArray:
+    """The unit normal (n, 3) at every corner: those of its triangles, by their area."""
+    a, b, c = np.asarray(surface.vertices, float)[surface.faces].transpose(1, 0, 2)
+    summed = np.zeros((len(surface.vertices), 3))
+    for k in range(3):
+        np.add.at(summed, surface.faces[:, k], np.cross(b - a, c - a))
+    normals: FloatArray = summed / np.maximum(np.linalg.norm(summed, axis=1, keepdims=True), 1e-12)
+    return normals
 
 
 def _facet(low: tuple[float, float], high: tuple[float, float], start: float, end: float) -> str:

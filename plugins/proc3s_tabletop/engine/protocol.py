@@ -227,3 +227,13 @@ class Engine(Protocol):
         self, bodies: Mapping[str, Body], colors: Mapping[str, str], film: Sequence[Snapshot], path: Path
     ) -> None:
         """Write the last snapshot to `path`, and every one beside it with `-step0`, `-step1`, ... ."""
+
+    def draw_marked(
+        self,
+        bodies: Mapping[str, Body],
+        colors: Mapping[str, str],
+        snapshot: Snapshot,
+        path: Path,
+        marked: Sequence[str],
+    ) -> None:
+        """Write a snapshot to `path`, with a ring around the bodies that are marked."""

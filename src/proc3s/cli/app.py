@@ -24,6 +24,7 @@ from proc3s.cli.commands import (
     replay,
     report,
     run,
+    runs,
     schema,
 )
 from proc3s.cli.commands import list as catalogue
@@ -77,6 +78,7 @@ _COMMANDS: dict[str, Callable[..., Any]] = {
     "run": run.run,
     "solve": run.solve,
     "render-prompt": render_prompt.render_prompt,
+    "runs": runs.runs,
     "replay": replay.replay,
     "explain": explain.explain,
     "report": report.report,

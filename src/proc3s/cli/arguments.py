@@ -17,6 +17,9 @@ from proc3s.planning.options import Option, all_options
 OPTIONS = all_options()
 
 Task: TypeAlias = Annotated[str, typer.Argument(metavar="TASK", help="domain/task, e.g. drawing/star")]
+Run: TypeAlias = Annotated[
+    Path | None, typer.Argument(metavar="[RUN]", help="run folder  [default: the newest below runs]")
+]
 Resume: TypeAlias = Annotated[
     Path | None,
     typer.Option("--resume", metavar="RUN", help="go on with a run that was broken off"),

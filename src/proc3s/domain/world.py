@@ -118,6 +118,10 @@ class World(Generic[T]):
     def render(self, plan: Plan, path: Path) -> None:
         """Draw the world after a plan as a PNG file; a world without a picture writes none."""
 
+    def render_marked(self, plan: Plan, path: Path, marked: Sequence[str]) -> None:
+        """Draw only the world after a plan, with these objects of the state marked; by default none is."""
+        self.render(plan, path)
+
     def facts(self) -> Sequence[str]:
         """Measured accuracy of its models, one line each: `proc3s check` prints them."""
         return ()
@@ -133,6 +137,11 @@ def make_world(domain: Domain, target: Target | None = None) -> World[Any]:
     with blame(f"world {target.target}"):
         world: World[Any] = make(domain, **target.args)
     return world
+
+
+def draws(world: World[Any]) -> bool:
+    """Whether a world draws pictures."""
+    return type(world).render is not World.render or type(world).render_marked is not World.render_marked
 
 
 def flaws_of(domain: Domain, state: State) -> Sequence[str]:

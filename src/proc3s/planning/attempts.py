@@ -1,6 +1,6 @@
 """The result of each program of a round."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -28,6 +28,12 @@ class Attempt:
     evaluations: int = 0
     rehearsals: int = 0
     rejected_by: Mapping[str, int] = field(default_factory=dict)
+
+
+def furthest(attempts: Sequence[Attempt]) -> Attempt | None:
+    """The attempt whose nearest plan came furthest; None if no plan was tried."""
+    tried = [attempt for attempt in attempts if attempt.nearest]
+    return max(tried, key=lambda attempt: attempt.diagnosis.progress, default=None)
 
 
 @dataclass(frozen=True)

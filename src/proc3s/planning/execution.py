@@ -10,8 +10,9 @@ from proc3s.domain.margins import Violation
 from proc3s.domain.state import State
 from proc3s.domain.values import Plan
 from proc3s.domain.world import Score, World, make_world
-from proc3s.errors import Proc3sError, blame
-from proc3s.runs.events import Emit, PlanExecuted, Unwritten
+from proc3s.errors import blame
+from proc3s.planning.pictures import drawing
+from proc3s.runs.events import Emit, PlanExecuted
 from proc3s.search.problem import Problem
 from proc3s.search.rollout import carry_out, judge
 from proc3s.specs.base import Target
@@ -77,16 +78,10 @@ def _carry_out(
 
 
 def _draw(plan: Plan, picture: Path | None, emit: Emit, world: World[Any]) -> None:
-    """Draw the outcome, if a picture is wanted; without it the plan is as good, so it is only told."""
-    if picture is None:
-        return
-    try:
-        with blame("world"):
+    """Draw the outcome, if a picture is wanted."""
+    if picture is not None:
+        with drawing(picture, emit):
             world.render(plan, picture)
-    except Proc3sError as error:
-        cause = error.__cause__
-        reason = cause.strerror if isinstance(cause, OSError) and cause.strerror else error
-        emit(Unwritten(text=f"the picture {picture} is missing: {reason}"))
 
 
 def _executed(execution: Execution, place: tuple[int, int]) -> PlanExecuted:

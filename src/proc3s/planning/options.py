@@ -95,6 +95,8 @@ class RunOptions(Spec):
     """option of the LLM"""
     limits: Annotated[Pairs, replace(_WORLD, flag="--limit")] = Field(default_factory=dict)
     """limit of the box, e.g. call=2, or of the clock, e.g. round=60"""
+    no_miss_picture: Annotated[bool, _WORLD] = False
+    """do not draw the nearest miss of an unsolved run"""
     unsafe_exec: Annotated[bool, _WORLD] = False
     """run programs WITHOUT the kernel's lock; warns each time"""
 

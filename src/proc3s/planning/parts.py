@@ -15,7 +15,8 @@ from proc3s.specs.parts import MethodSpec, PresetSpec
 class Setup:
     """Everything a run is made of, but for the one who proposes programs.
 
-    `locked` is False only if the user asked for programs to run outside the kernel's lock.
+    `locked` is False only if the user asked for programs to run outside the kernel's lock. `picture` takes
+    that of the outcome, `miss_folder` those of an unsolved run.
     """
 
     problem: Problem
@@ -29,3 +30,4 @@ class Setup:
     locked: bool = True
     audit: int = 0
     picture: Path | None = None
+    miss_folder: Path | None = None

@@ -14,6 +14,7 @@ from proc3s.llm.errors import BudgetSpent
 from proc3s.planning.attempts import Attempt, Round
 from proc3s.planning.execution import Execution, execute
 from proc3s.planning.parts import Setup
+from proc3s.planning.pictures import Miss, draw_unsolved, nearest_miss
 from proc3s.planning.proposals import Proposal, Propose
 from proc3s.planning.round_budget import RoundBudget
 from proc3s.planning.rounds import run_round
@@ -66,6 +67,7 @@ class Run:
                 error = reason
             with self._clock("execute"):
                 execution = self._execute()
+                self._draw(execution)
         except Proc3sError as reason:
             error = reason
         except KeyboardInterrupt:
@@ -99,6 +101,16 @@ class Run:
             seconds=dict(self._clock.wall),
             cpu_seconds=dict(self._clock.cpu),
         )
+
+    def _draw(self, execution: Execution | None) -> None:
+        """Pictures of a run that was not solved: whatever its plan, what came nearest."""
+        folder = self._setup.miss_folder
+        if folder is None or (execution and execution.executed == "solution"):
+            return
+        miss = nearest_miss([attempt for round_ in self._rounds for attempt in round_.attempts])
+        if miss is None and execution and execution.violations:
+            miss = Miss.of(execution.plan, execution.violations[0])
+        draw_unsolved(self._setup.problem, miss, folder, self._emit)
 
     def _execute(self) -> Execution | None:
         """Carry out the accepted plan, or the latest one to fall back on, and let the judge look."""

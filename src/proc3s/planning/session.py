@@ -37,6 +37,7 @@ from proc3s.runs.events import (
     Unwritten,
 )
 from proc3s.runs.folder import RunFolder, new_folder
+from proc3s.runs.newest import RUNS, link_latest
 
 
 @dataclass(frozen=True)
@@ -123,9 +124,11 @@ class Session:
     def run(self) -> Ended:
         """Carry the run out to its end."""
         options, job = self._options, self._job
-        path = job.out or new_folder(Path("runs"), options.task, options.method, options.seed)
-        setup = replace(self._setup, picture=path / "plan.png")
+        path = job.out or new_folder(RUNS, options.task, options.method, options.seed)
+        miss_folder = None if options.no_miss_picture else path
+        setup = replace(self._setup, picture=path / "plan.png", miss_folder=miss_folder)
         self._folder = RunFolder(path, resume=job.past is not None)
+        link_latest(path)
         try:
             self._emit(self._begun())
             outcome = plan(setup, self._propose(), self._emit, self._past.rounds, self._past.clock())

@@ -10,6 +10,7 @@ from proc3s.domain.values import Plan
 from proc3s.errors import Stopped
 from proc3s.feedback.report import Diagnosis, Failure
 from proc3s.llm.budget import Spent
+from proc3s.planning.attempts import furthest
 from proc3s.planning.options import RunOptions
 from proc3s.planning.parts import Setup
 from proc3s.planning.planner import Outcome
@@ -140,8 +141,7 @@ def _accepted(outcome: Outcome) -> Plan | None:
 
 def _nearest(outcome: Outcome) -> dict[str, Any] | None:
     """The plan of the attempt that got furthest."""
-    tried = [attempt for attempt in outcome.attempts if attempt.nearest]
-    best = max(tried, key=lambda attempt: attempt.diagnosis.progress, default=None)
+    best = furthest(outcome.attempts)
     if best is None or best.nearest is None:
         return None
     return {"round": best.round, "candidate": best.candidate, **best.nearest}

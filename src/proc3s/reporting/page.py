@@ -22,6 +22,7 @@ from proc3s.reporting import charts
 from proc3s.reporting.explanation import explained
 from proc3s.reporting.history import ProgramRecord, RoundRecord, Story
 from proc3s.reporting.templates import ReportTemplates
+from proc3s.runs.folder import NEAREST_MISS, SCENE
 from proc3s.sandbox.text import clean
 
 _STEP = re.compile(r"plan-step(\d+)$")
@@ -42,6 +43,7 @@ def page(story: Story, folders: Sequence[Path]) -> str:
         colors={name: data_url(_swatch(color), "svg+xml") for name, color in colors.items()},
         details={round_.number: _details(round_, colors) for round_ in story.rounds},
         pictures=_pictures(story),
+        missed=_missed(story),
         timings=_timings(story),
         summary=_shown(story.summary or {}),
         options=_shown(story.options),
@@ -122,6 +124,12 @@ def _pictures(story: Story) -> list[dict[str, Any]]:
         ]
     last = story.run / "plan.png"
     return [_picture(last, None, None)] if last.is_file() else []
+
+
+def _missed(story: Story) -> list[dict[str, Any]]:
+    """Those of what an unsolved run came nearest to, and of where it began."""
+    paths = [story.run / name for name in (NEAREST_MISS, SCENE)]
+    return [] if story.solved else [_picture(path, None, None) for path in paths if path.is_file()]
 
 
 def _picture(path: Path, action: dict[str, Any] | None, after: int | None) -> dict[str, Any]:

@@ -173,7 +173,7 @@ class Runner:
             yield from ("--resume", str(run), *self._order.again)
         else:
             yield from (cell.task, "--method", cell.method, "--preset", cell.preset, "--seed", str(cell.seed))
-            yield from ("--out", str(run))
+            yield from ("--out", str(run), "--no-miss-picture")
             for name, value in (("--samples", spec.samples), ("--feedback", spec.feedback)):
                 yield from (name, str(value)) if value is not None else ()
             yield from self._order.arguments

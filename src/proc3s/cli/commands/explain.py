@@ -1,8 +1,6 @@
 """`proc3s explain`."""
 
 import json as json_module
-from pathlib import Path
-from typing import Annotated
 
 import typer
 
@@ -10,17 +8,18 @@ from proc3s.cli import arguments as a
 
 
 def explain(
-    run: Annotated[Path, typer.Argument(metavar="RUN", help="run folder")],
+    run: a.Run = None,
     plugin: a.Plugins = None,
     json: a.Json = False,
 ) -> None:
     """Say in plain words, round by round, what failed in a run, what changed, and where to look."""
+    from proc3s.cli.handlers.runs import chosen_run
     from proc3s.cli.streams import print_document
     from proc3s.plugins.registry import folders_of, open_registry
     from proc3s.reporting.explanation import explain, explained
     from proc3s.reporting.history import read_story
 
-    story, folders = read_story(run), folders_of(open_registry(plugin or []))
+    story, folders = read_story(chosen_run(run)), folders_of(open_registry(plugin or []))
     if json:
         print_document(json_module.dumps(explained(story, folders), indent=2))
     else:

@@ -9,7 +9,7 @@ from proc3s.cli import arguments as a
 
 
 def report(
-    run: Annotated[Path, typer.Argument(metavar="RUN", help="run folder")],
+    run: a.Run = None,
     open_: Annotated[bool, typer.Option("--open", help="show the page in your browser")] = False,
     out: Annotated[
         Path | None, typer.Option("--out", metavar="PATH", help="file of the page (default: RUN/report.html)")
@@ -17,12 +17,14 @@ def report(
     plugin: a.Plugins = None,
 ) -> None:
     """Write a run as one HTML page: prompts, answers, programs, samples, failures, pictures, timings."""
+    from proc3s.cli.handlers.runs import chosen_run
     from proc3s.plugins.registry import folders_of, open_registry
     from proc3s.reporting.history import read_story
     from proc3s.reporting.page import write
 
-    path = out or run / "report.html"
-    write(read_story(run), folders_of(open_registry(plugin or [])), path)
+    folder = chosen_run(run)
+    path = out or folder / "report.html"
+    write(read_story(folder), folders_of(open_registry(plugin or [])), path)
     typer.echo(path)
     if open_:
         typer.launch(path.resolve().as_uri())

@@ -1,6 +1,7 @@
 """What a person sees of a run: progress on stderr while it samples, then a short result."""
 
 import sys
+from pathlib import Path
 from types import TracebackType
 
 from rich.console import Console as RichConsole
@@ -24,6 +25,7 @@ from proc3s.runs.events import (
     SketchLoaded,
     Warned,
 )
+from proc3s.runs.folder import NEAREST_MISS
 from proc3s.wording import count
 
 _ORIGIN = {
@@ -142,7 +144,17 @@ class Console:
             out.print(escape(f"  {step:2d}  {action['skill']}({args})"))
         for violation in summary.violations[:5]:
             out.print(escape(f"  violated at step {violation['step']}: {violation['text']}"))
+        miss = Path(summary.run_dir or "") / NEAREST_MISS
+        if not summary.solved and miss.is_file():
+            out.print(escape(f"nearest  {_nearest(summary)}"))
+            out.print(escape(f"picture  {miss}"))
         out.print(escape(f"folder   {summary.run_dir}"))
+
+
+def _nearest(summary: Summary) -> str:
+    """What the plan that came furthest violates; the same as is below its picture."""
+    violations = summary.nearest["violations"] if summary.nearest else summary.violations
+    return "; ".join(f"step {v['step']} ({v['skill']}): {v['text']}" for v in violations[:1])
 
 
 def _spent(spent: Spent) -> str:

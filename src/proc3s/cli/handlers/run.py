@@ -19,6 +19,7 @@ from proc3s.planning.session import Ended, Given, Job, Session
 from proc3s.planning.summary import Summary
 from proc3s.plugins.versions import versions
 from proc3s.prompts.extract import extract_program
+from proc3s.runs.newest import itself
 from proc3s.runs.reading import events_of, options_of
 from proc3s.sandbox.errors import SketchError
 from proc3s.specs.yaml_files import validate
@@ -94,7 +95,7 @@ def replay_run(run: Path, changes: dict[str, Any], out: Path | None, as_json: bo
     """Search the last program of a run again, with the random draws of its round."""
 
     def job() -> Job:
-        options = {**options_of(run), **plain_options(changes)}
+        options = {**options_of(run), "no_miss_picture": False, **plain_options(changes)}
         if changes.get("executor") not in (None, options_of(run)["executor"]):
             options["jobs"] = 1  # those of the run were another executor's
         return Job(validate(RunOptions, options, str(run)), out, _program_of(run))
@@ -118,6 +119,7 @@ def _program_of(run: Path) -> Given:
 
 def resume_run(run: Path, task: str | None, given: dict[str, Any], as_json: bool) -> None:
     """Go on with a run that was broken off, from its last completed step."""
+    run = itself(run)  # `latest` may lead elsewhere before the run is over
 
     def job() -> Job:
         logged = validate(RunOptions, options_of(run), str(run))
