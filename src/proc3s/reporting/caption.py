@@ -19,7 +19,7 @@ def write_below(picture: Path, text: str) -> None:
     font = ImageFont.truetype(str(Path(mpl.get_data_path()) / "fonts/ttf/DejaVuSans.ttf"), SIZE)
     with Image.open(picture) as opened:
         image = opened.convert("RGB")
-    letters = int((image.width - 2 * MARGIN) / (0.55 * SIZE))
+    letters = int((image.width - 2 * MARGIN) / (0.62 * SIZE))
     lines = "\n".join(wrap(clean(text, LONGEST), max(letters, 1)))
     _, _, _, height = ImageDraw.Draw(image).multiline_textbbox((0, 0), lines, font=font)
     whole = Image.new("RGB", (image.width, image.height + int(height) + 2 * MARGIN), "white")
