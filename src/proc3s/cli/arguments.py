@@ -18,7 +18,7 @@ OPTIONS = all_options()
 
 Task: TypeAlias = Annotated[str, typer.Argument(metavar="TASK", help="domain/task, e.g. drawing/star")]
 Run: TypeAlias = Annotated[
-    Path | None, typer.Argument(metavar="[RUN]", help="run folder  [default: the newest below runs]")
+    Path | None, typer.Argument(metavar="[RUN]", help="run folder (default: the newest in runs)")
 ]
 Resume: TypeAlias = Annotated[
     Path | None,

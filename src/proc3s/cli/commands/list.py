@@ -30,7 +30,7 @@ def show(
     picture: Annotated[bool, typer.Option("--picture", help="draw the scene of a task as PNG")] = False,
     given: Annotated[a.Given, a.fields("seed", "domain_options")],
     out: Annotated[
-        Path | None, typer.Option("--out", help="file of the picture  [default: TASK-seedN.png]")
+        Path | None, typer.Option("--out", metavar="PATH", help="its file (default: TASK-seedN.png)")
     ] = None,
     plugin: a.Plugins = None,
     json: a.Json = False,

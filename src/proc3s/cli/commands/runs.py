@@ -10,9 +10,10 @@ from proc3s.cli import arguments as a
 
 def runs(
     folder: Annotated[
-        Path, typer.Argument(metavar="DIR", help="folder of run folders, or of a suite", show_default="runs")
+        Path,
+        typer.Argument(metavar="DIR", help="folder of runs or a suite (default: runs)", show_default=False),
     ] = Path("runs"),
-    limit: Annotated[int, typer.Option("--limit", min=0, help="at most so many; 0: all")] = 10,
+    limit: Annotated[int, typer.Option("--limit", metavar="N", min=0, help="at most so many; 0: all")] = 10,
     json: a.Json = False,
 ) -> None:
     """List runs, the newest first: outcome, folder, task, method, LLM, samples, time."""
