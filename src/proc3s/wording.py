@@ -3,6 +3,10 @@
 import math
 from collections.abc import Sequence
 from decimal import Decimal
+from typing import Any
+
+_DECIMALS = 9
+"""What arithmetic leaves of a zero reads as zero."""
 
 
 def count(number: int, what: str) -> str:
@@ -26,3 +30,10 @@ def plain(value: float, digits: int = 2) -> str:
     if abs(value) >= 10**digits:
         return f"{value:.0f}"
     return f"{Decimal(f'{value + 0.0:.{digits}g}'):f}"
+
+
+def number(value: Any) -> str:
+    """A coordinate to four digits and nine decimals, also within a point or pose; anything else as it is."""
+    if isinstance(value, list | tuple):
+        return f"({', '.join(map(number, value))})"
+    return plain(round(value, _DECIMALS), 4) if isinstance(value, float) else str(value)

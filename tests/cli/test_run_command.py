@@ -290,3 +290,13 @@ def test_a_listener_that_breaks_does_not_cost_the_run(cli, here):
     )
     result = cli("run", "drawing/star", "--plugin", plugin, "--json")
     assert (result.code, result.json["solved"]) == (0, True)
+
+
+def test_coordinates_have_four_digits_on_the_console_as_in_an_explanation(cli, stub):
+    line = "[0.012345678, 1 / 3, 49.123456789, 1e-17]"
+    program = f"```python\ndef gen_plan(initial):\n    return [Action('draw_line', {line})]\n```"
+    result = cli(
+        "run", "drawing/free", "--goal", "A line.", "--method", "cap", "--llm", stub(program), "--out", "r"
+    )
+    assert "  0  draw_line(0.01235, 0.3333, 49.12, 0)\n" in result.stdout
+    assert "  0  draw_line(0.01235, 0.3333, 49.12, 0)\n" in cli("explain", "r").stdout

@@ -179,7 +179,7 @@ def test_an_action_as_json_and_as_text():
         "skill": "look",
         "args": [[1.0, 2.0, 3.0], [1, 2, 3, 0.0, 0.0, 0.0], "object_0", 4, 2 / 3],
     }
-    assert str(action) == "look((1.00, 2.00, 3.00), (1, 2, 3, 0.00, 0.00, 0.00), object_0, 4, 0.67)"
+    assert str(action) == "look((1, 2, 3), (1, 2, 3, 0, 0, 0), object_0, 4, 0.6667)"
 
 
 def test_equal_plans_hash_equally():

@@ -6,8 +6,9 @@ from proc3s.errors import UsageError
 from proc3s.plugins.registry import folders_of, open_registry
 from proc3s.reporting.changes import line_changes
 from proc3s.reporting.explanation import explain
-from proc3s.reporting.formatting import number, sampler
+from proc3s.reporting.formatting import sampler
 from proc3s.reporting.history import read_story
+from proc3s.wording import number
 
 
 def test_two_rounds_in_plain_words(cli, two_rounds):

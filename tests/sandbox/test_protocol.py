@@ -136,7 +136,7 @@ def test_frames_may_arrive_in_pieces(cut):
     replies.feed(data[cut:])
     batch = COLUMNS.batch(replies)
     assert [str(action) for action in batch.plan(0) + batch.plan(2)] == [
-        "draw_line(1.00, 2.00, 3.00, 4.00)",
+        "draw_line(1, 2, 3, 4)",
         "repeat(3)",
     ]
     assert batch.logs == {1: "hi"}

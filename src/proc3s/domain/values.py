@@ -8,6 +8,8 @@ from typing import Any, TypeAlias, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from proc3s.wording import number
+
 FloatArray: TypeAlias = NDArray[np.float64]
 
 
@@ -34,7 +36,7 @@ class Action:
     args: tuple[Value, ...]
 
     def __str__(self) -> str:
-        return f"{self.skill}({', '.join(_short(value) for value in self.args)})"
+        return f"{self.skill}({', '.join(number(_plain(value)) for value in self.args)})"
 
     def to_json(self) -> dict[str, Any]:
         """The action as it stands in a summary; a pose becomes its six numbers."""
@@ -57,11 +59,3 @@ def _value(plain: Any) -> Value:
     if not isinstance(plain, list):
         return cast(Value, plain)
     return Pose(*plain) if len(plain) == len(dataclasses.fields(Pose)) else tuple(plain)
-
-
-def _short(value: Value) -> str:
-    if isinstance(value, Pose):
-        return _short(dataclasses.astuple(value))
-    if isinstance(value, tuple):
-        return "(" + ", ".join(map(_short, value)) + ")"
-    return f"{value:.2f}" if isinstance(value, float) else str(value)

@@ -1,20 +1,15 @@
-"""Numbers, samplers and ticks, worded for people."""
+"""Samplers and ticks, worded for people."""
 
 import re
-from typing import Any
 
 from markupsafe import Markup, escape
 
-from proc3s.wording import plain
+from proc3s.wording import number
 
 _LONG_NUMBER = re.compile(r"-?\d+(?:\.\d{5,}(?:e[-+]?\d+)?|(?:\.\d+)?e-\d+)")
 
 
 _LONG_SAMPLER = 72
-
-
-_DECIMALS = 9
-"""What a program's arithmetic leaves of a zero reads as zero."""
 
 
 def sampler(text: str) -> str:
@@ -31,10 +26,3 @@ def ticks(text: str) -> Markup:
     return Markup("").join(
         Markup("<code>{}</code>").format(part) if i % 2 else part for i, part in enumerate(parts)
     )
-
-
-def number(value: Any) -> str:
-    """A number to four digits and nine decimals, also within a pose; anything else as it is."""
-    if isinstance(value, list | tuple):
-        return f"({', '.join(map(number, value))})"
-    return plain(round(value, _DECIMALS), 4) if isinstance(value, float) else str(value)

@@ -9,8 +9,8 @@ from jinja2.sandbox import ImmutableSandboxedEnvironment
 
 from proc3s.errors import Issue, SpecError, UsageError
 from proc3s.feedback.shares import portion
-from proc3s.reporting.formatting import number, sampler, ticks
-from proc3s.wording import plain
+from proc3s.reporting.formatting import sampler, ticks
+from proc3s.wording import number, plain
 
 
 class ReportTemplates:

@@ -1,5 +1,5 @@
 # Changes the classes of the state and the constants between samples.
-# expect: plan: draw_line(50.00, 50.00, 1.00, 1.00)
+# expect: plan: draw_line(50, 50, 1, 1)
 # answer: program
 def gen_plan(state):
     o = state.obstacles[0]

@@ -1,5 +1,5 @@
 # Keeps the state of the first call and hands it on: later calls get a new one.
-# expect: plan: draw_line(50.00, 51.00, 2.00, 1.00)
+# expect: plan: draw_line(50, 51, 2, 1)
 # answer: program
 seen = []
 def gen_plan(state):

@@ -1,5 +1,5 @@
 # Choices whose text would clear the screen.
-# expect: plan: look((1.00, 2.00, 3.00), near)
+# expect: plan: look((1, 2, 3), near)
 def gen_plan(state, x):
     return [Action("look", [(1, 2, 3), "near" if x else "far"])]
 

@@ -1,5 +1,5 @@
 # Default and keyword-only parameters, of helpers and of gen_plan.
-# expect: plan: draw_line(3.00, 7.00, 5.00, 0.00)
+# expect: plan: draw_line(3, 7, 5, 0)
 def line(a, b=7, *, c, d=0):
     return Action("draw_line", [a, b, c, d])
 

@@ -1,5 +1,5 @@
 # Abstract classes, inheritance, properties, class methods.
-# expect: plan: draw_line(5.00, 5.00, 15.00, 5.00)
+# expect: plan: draw_line(5, 5, 15, 5)
 # answer: program
 from abc import ABC, abstractmethod
 

@@ -1,5 +1,5 @@
 # Constants of its own beside those of the domain.
-# expect: plan: draw_line(10.00, 90.00, 90.00, 90.00)
+# expect: plan: draw_line(10, 90, 90, 90)
 MARGIN = 0.1 * CANVAS
 LEFT, RIGHT = MARGIN, CANVAS - MARGIN
 SIDES = {"top": RIGHT, "bottom": LEFT}

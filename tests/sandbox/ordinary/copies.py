@@ -1,5 +1,5 @@
 # Copies the state before it plans ahead on the copy.
-# expect: plan: draw_line(50.00, 50.00, 51.00, 50.00)
+# expect: plan: draw_line(50, 50, 51, 50)
 # answer: program
 import copy
 

@@ -1,5 +1,5 @@
 # Dataclasses of its own, frozen, ordered, with methods and defaults.
-# expect: plan: draw_line(1.00, 2.00, 4.00, 6.00)
+# expect: plan: draw_line(1, 2, 4, 6)
 # answer: program
 from dataclasses import asdict, dataclass, field, replace
 

@@ -1,5 +1,5 @@
 # Decorators of its own, partial, reduce, singledispatch.
-# expect: plan: repeat(6); draw_line(1.00, 2.00, 3.00, 3.00)
+# expect: plan: repeat(6); draw_line(1, 2, 3, 3)
 # answer: program
 import functools
 import operator

@@ -1,5 +1,5 @@
 # Enumerations and sets.
-# expect: plan: look((1.00, 2.00, 3.00), far); repeat(2)
+# expect: plan: look((1, 2, 3), far); repeat(2)
 # answer: program
 from enum import Enum, auto
 

@@ -1,5 +1,5 @@
 # Corners by product, pairs by pairwise, a cycle closed by chain.
-# expect: plan: draw_line(10.00, 10.00, 10.00, 20.00); draw_line(10.00, 20.00, 20.00, 10.00); draw_line(20.00, 10.00, 20.00, 20.00); draw_line(20.00, 20.00, 10.00, 10.00)
+# expect: plan: draw_line(10, 10, 10, 20); draw_line(10, 20, 20, 10); draw_line(20, 10, 20, 20); draw_line(20, 20, 10, 10)
 # answer: program
 from itertools import chain, islice, pairwise, product
 

@@ -1,5 +1,5 @@
 # A layout written as JSON in the program.
-# expect: plan: draw_line(1.50, 2.00, 3.00, 4.00)
+# expect: plan: draw_line(1.5, 2, 3, 4)
 # answer: program
 import json
 

@@ -1,5 +1,5 @@
 # The plan itself, as plain as can be.
-# expect: plan: draw_line(0.00, 0.00, 10.00, 10.00); pick(object_1, (1.00, 2.00, 3.00, 0.00, 0.00, 0.00)); look((1.00, 2.00, 3.00), near)
+# expect: plan: draw_line(0, 0, 10, 10); pick(object_1, (1, 2, 3, 0, 0, 0)); look((1, 2, 3), near)
 # answer: plan
 gen_plan = [
     Action("draw_line", [0, 0, 10, 10]),

@@ -1,5 +1,5 @@
 # Structural pattern matching on objects, tuples and numbers.
-# expect: plan: draw_line(50.00, 50.00, 20.00, 70.00)
+# expect: plan: draw_line(50, 50, 20, 70)
 # answer: program
 def place(o):
     match o:

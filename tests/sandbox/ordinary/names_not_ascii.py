@@ -1,5 +1,5 @@
 # Names and texts in the letters of mathematics and of other languages.
-# expect: plan: draw_line(51.00, 50.00, 0.00, 0.00)
+# expect: plan: draw_line(51, 50, 0, 0)
 # log: größer als π – 三角形 ✓
 def gen_plan(state, θ, größe):
     print("größer als π – 三角形 ✓")

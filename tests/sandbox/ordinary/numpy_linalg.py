@@ -1,5 +1,5 @@
 # Rotation matrices, norms, solving, broadcasting, random access.
-# expect: plan: draw_line(1.00, 0.00, 0.00, 1.00)
+# expect: plan: draw_line(1, 0, 0, 1)
 # answer: program
 def gen_plan(state):
     turn = np.array([[np.cos(np.pi / 2), -np.sin(np.pi / 2)], [np.sin(np.pi / 2), np.cos(np.pi / 2)]])

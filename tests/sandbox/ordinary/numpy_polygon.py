@@ -1,5 +1,5 @@
 # A regular polygon with numpy arrays as points.
-# expect: plan: draw_line(70.00, 50.00, 50.00, 70.00); draw_line(50.00, 70.00, 30.00, 50.00); draw_line(30.00, 50.00, 50.00, 30.00); draw_line(50.00, 30.00, 70.00, 50.00)
+# expect: plan: draw_line(70, 50, 50, 70); draw_line(50, 70, 30, 50); draw_line(30, 50, 50, 30); draw_line(50, 30, 70, 50)
 import numpy as np
 
 def gen_plan(state, size: float):

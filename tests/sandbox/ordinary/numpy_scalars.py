@@ -1,5 +1,5 @@
 # numpy numbers of every kind where numbers are expected.
-# expect: plan: draw_line(1.00, 2.00, 3.00, 4.00); repeat(5)
+# expect: plan: draw_line(1, 2, 3, 4); repeat(5)
 # answer: program
 def gen_plan(state):
     values = np.arange(1, 5)

@@ -1,5 +1,5 @@
 # Random numbers from random, np.random and a generator of its own: seeded for every sample.
-# expect: plan: draw_line(84.44, 39.29, 1.00, 1.00)
+# expect: plan: draw_line(84.44, 39.29, 1, 1)
 def gen_plan(state, x):
     rng = np.random.default_rng(42)
     order = list(rng.permutation(3))

@@ -1,5 +1,5 @@
 # Samplers made by lambdas and comprehensions, from the state.
-# expect: plan: draw_line(50.00, 20.00, 2.00, 3.00)
+# expect: plan: draw_line(50, 20, 2, 3)
 near = lambda value: ContinuousSampler(value, value)
 
 def gen_plan(state, x_0, x_1, pick):

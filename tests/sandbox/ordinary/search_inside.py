@@ -1,5 +1,5 @@
 # Searches for a free place itself, with a queue.
-# expect: plan: draw_line(0.00, 0.00, 0.00, 20.00)
+# expect: plan: draw_line(0, 0, 0, 20)
 # answer: program
 from collections import deque
 

@@ -1,5 +1,5 @@
 # The smaller modules of the standard library.
-# expect: plan: draw_line(35.00, 60.00, 1.00, 2.00)
+# expect: plan: draw_line(35, 60, 1, 2)
 # answer: program
 import bisect
 import heapq

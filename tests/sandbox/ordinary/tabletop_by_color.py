@@ -1,6 +1,6 @@
 # Chooses objects by colour and category, and their poses as arrays and tuples.
 # scene: tabletop
-# expect: plan: pick(object_1, (0.00, 0.00, 0.00, 0.00, 3.14, 0.00)); place(object_1, (0.00, 0.00, 0.00, 0.00, 3.14, 0.00), (0.20, -0.50, 0.12, 0.00, 0.00, 0.00))
+# expect: plan: pick(object_1, (0, 0, 0, 0, 3.142, 0)); place(object_1, (0, 0, 0, 0, 3.142, 0), (0.2, -0.5, 0.12, 0, 0, 0))
 def find(belief, category, color=None):
     for name, o in belief.objects.items():
         if o.category == category and color in (None, o.color):

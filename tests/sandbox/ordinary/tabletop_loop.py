@@ -1,6 +1,6 @@
 # A tower of all blocks, from lists and dictionaries of names.
 # scene: tabletop
-# expect: plan: pick(object_0, (0.00, 0.00, 0.00, 0.00, 0.00, 0.00)); place(object_0, (0.00, 0.00, 0.00, 0.00, 0.00, 0.00), (0.00, -0.50, 0.02, 0.00, 0.00, 0.00)); pick(object_1, (0.00, 0.00, 0.00, 0.00, 0.00, 0.00)); place(object_1, (0.00, 0.00, 0.00, 0.00, 0.00, 0.00), (0.00, -0.50, 0.06, 0.00, 0.00, 0.00))
+# expect: plan: pick(object_0, (0, 0, 0, 0, 0, 0)); place(object_0, (0, 0, 0, 0, 0, 0), (0, -0.5, 0.02, 0, 0, 0)); pick(object_1, (0, 0, 0, 0, 0, 0)); place(object_1, (0, 0, 0, 0, 0, 0), (0, -0.5, 0.06, 0, 0, 0))
 # answer: program
 def gen_plan(initial):
     plan = []

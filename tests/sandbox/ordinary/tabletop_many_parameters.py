@@ -1,6 +1,6 @@
 # One parameter an object, with names made in a loop.
 # scene: tabletop
-# expect: plan: push(0.10, 0.20, 0.30)
+# expect: plan: push(0.1, 0.2, 0.3)
 def gen_plan(initial, a_x, a_y, a_z, mode="slow", tries=3, flip=False):
     assert isinstance(tries, int) and isinstance(flip, bool) and mode in ("slow", "fast")
     return [Action("push", [a_x, a_y, a_z])]

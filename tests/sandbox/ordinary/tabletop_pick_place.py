@@ -1,6 +1,6 @@
 # Picks a block by name and places it on another, with grasps and poses.
 # scene: tabletop
-# expect: plan: pick(object_0, (0.10, -0.50, 0.02, 0.00, 0.00, 0.50)); place(object_0, (0.10, -0.50, 0.02, 0.00, 0.00, 0.50), (-0.10, -0.50, 0.06, 0.00, 0.00, 0.00))
+# expect: plan: pick(object_0, (0.1, -0.5, 0.02, 0, 0, 0.5)); place(object_0, (0.1, -0.5, 0.02, 0, 0, 0.5), (-0.1, -0.5, 0.06, 0, 0, 0))
 def gen_plan(initial: ArrangeBelief, yaw: float):
     source, target = initial.objects["object_0"].pose, initial.objects["object_1"].pose
     grasp = ArrangePose(source.x, source.y, source.z, 0, 0, yaw)

@@ -1,6 +1,6 @@
 # Points of a line on the table, as tuples, lists and arrays.
 # scene: tabletop
-# expect: plan: move((-0.30, -0.50, 0.10)); move((0.00, -0.50, 0.10)); push(0.30, -0.50, 0.10)
+# expect: plan: move((-0.3, -0.5, 0.1)); move((0, -0.5, 0.1)); push(0.3, -0.5, 0.1)
 def gen_plan(initial, height):
     (low, high), y = TABLE_BOUNDS[0], TABLE_CENTER[1]
     xs = np.linspace(low, high, 3)

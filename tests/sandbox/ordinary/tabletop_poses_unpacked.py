@@ -1,6 +1,6 @@
 # Poses that are unpacked, compared and indexed by name.
 # scene: tabletop
-# expect: plan: push(0.20, -0.50, 0.02)
+# expect: plan: push(0.2, -0.5, 0.02)
 # answer: program
 def gen_plan(initial):
     x, y, z, *angles = initial["object_2"].pose

@@ -7,6 +7,7 @@ from types import TracebackType
 from rich.console import Console as RichConsole
 from rich.markup import escape
 
+from proc3s.domain.values import Action
 from proc3s.feedback.report import Diagnosis, Failure
 from proc3s.feedback.shares import portion
 from proc3s.llm.budget import Spent
@@ -140,8 +141,7 @@ class Console:
         if summary.stale:
             out.print("answer   stale (given to another prompt than that of this run)")
         for step, action in enumerate(summary.plan or []):
-            args = ", ".join(f"{v:.2f}" if isinstance(v, float) else str(v) for v in action["args"])
-            out.print(escape(f"  {step:2d}  {action['skill']}({args})"))
+            out.print(escape(f"  {step:2d}  {Action.from_json(action)}"))
         for violation in summary.violations[:5]:
             out.print(escape(f"  violated at step {violation['step']}: {violation['text']}"))
         miss = Path(summary.run_dir or "") / NEAREST_MISS
