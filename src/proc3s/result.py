@@ -111,9 +111,8 @@ class Result:
 
     @property
     def _commonest(self) -> str | None:
-        found = self.diagnosis
-        failures = (*found.program_errors, *found.failures) if found else ()
-        return f"{failures[0].kind}: {failures[0].text}" if failures else None
+        failure = self.diagnosis.commonest if self.diagnosis else None
+        return f"{failure.kind}: {failure.text}" if failure else None
 
     @property
     def error(self) -> str | None:

@@ -27,6 +27,14 @@ class Failure(BaseModel):
     parameters: str = ""
     """In which samples an error occurred, if not in all: the parameters that tell them from the others."""
 
+    @property
+    def told(self) -> str:
+        """The failure on one line."""
+        if self.step is not None:
+            return f"step {self.step} ({self.skill}): {self.text}"
+        line = f" (line {self.line}: {(self.source or '').strip()})" if self.line else ""
+        return f"{self.kind}: {self.text}{line}" + (f", {self.parameters}" if self.parameters else "")
+
 
 class ConstraintReport(BaseModel):
     """How one constraint was violated over all samples."""
@@ -68,6 +76,11 @@ class Diagnosis(BaseModel):
     """Parameters whose values tell better samples from worse ones."""
     bound_hits: tuple[BoundHit, ...] = ()
     """Bounds of gen_domain that the better samples press against."""
+
+    @property
+    def commonest(self) -> Failure | None:
+        """What ended the program, or else the commonest failure of its samples."""
+        return next(iter((*self.program_errors, *self.failures)), None)
 
     @property
     def progress(self) -> tuple[float, float]:

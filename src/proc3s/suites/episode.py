@@ -5,6 +5,7 @@ from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict
 
+from proc3s.feedback.report import Diagnosis
 from proc3s.llm.budget import Spent
 from proc3s.llm.types import Completion
 from proc3s.planning.summary import Summary
@@ -48,6 +49,8 @@ class Episode(BaseModel):
     """The judge's verdict; null without a judge or without a plan."""
     goal_reason: str | None = None
     """Why the judge says so."""
+    failure: str | None = None
+    """The commonest failure of its last program, where no plan was accepted."""
     judged: bool = False
     """The task has a judge."""
     rounds: int = 0
@@ -110,6 +113,7 @@ def episode_of(cell: Cell, summary: Summary, run: Path, run_dir: str, judged: bo
         answered=(answers[0]["time"] if live else first.answered) if first else None,
         prompt_sha256=prompts[0] if prompts else None,
         dropped=tuple(sorted({name for c in completions for name in c.dropped})),
+        failure=None if summary.solved else _failure(events),
         judged=judged,
         seconds=summary.seconds,
         cpu_seconds=summary.cpu_seconds,
@@ -121,6 +125,13 @@ def episode_of(cell: Cell, summary: Summary, run: Path, run_dir: str, judged: bo
         program_errors=_count(events, "program_extracted") - _count(events, "sketch_loaded"),
         run_dir=run_dir,
     )
+
+
+def _failure(events: list[dict[str, Any]]) -> str | None:
+    """What most samples of the last round failed by; `round_ended` tells of its best program."""
+    ended = [event["diagnosis"] for event in events if event["event"] == "round_ended"]
+    failure = Diagnosis.model_validate(ended[-1]).commonest if ended else None
+    return failure.told if failure else None
 
 
 def _count(events: list[dict[str, Any]], name: str) -> int:

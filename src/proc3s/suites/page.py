@@ -10,8 +10,11 @@ from typing import Any
 from markupsafe import Markup
 from PIL import Image, UnidentifiedImageError
 
-from proc3s.reporting.page import data_url
+from proc3s.errors import UsageError
+from proc3s.reporting.history import read_story
+from proc3s.reporting.page import data_url, write
 from proc3s.reporting.templates import ReportTemplates
+from proc3s.runs.reading import LOG
 from proc3s.suites.charts import curves, success_bars
 from proc3s.suites.results import Result, Results
 from proc3s.suites.tables import SuiteTable, provenance
@@ -34,12 +37,12 @@ def page(results: Results, tables: Sequence[SuiteTable], folder: Path, templates
         origin=provenance(results),
         tables=tables,
         charts={title: data_url(svg.encode(), "svg+xml") for title, svg in charts.items() if svg},
-        gallery=list(_gallery(results, folder)),
+        gallery=list(_gallery(results, folder, templates)),
         unfinished=results.unfinished,
     )
 
 
-def _gallery(results: Results, folder: Path) -> Iterator[dict[str, Any]]:
+def _gallery(results: Results, folder: Path, templates: Sequence[Path]) -> Iterator[dict[str, Any]]:
     """Every episode in words, with the picture of what came of it."""
     for result in results.all:
         yield {
@@ -47,6 +50,7 @@ def _gallery(results: Results, folder: Path) -> Iterator[dict[str, Any]]:
             "verdict": result.verdict,
             "state": _state(result),
             "picture": thumbnail(folder / result.episode.run_dir / "plan.png"),
+            "report": report_of(folder / result.episode.run_dir, templates),
         }
 
 
@@ -57,6 +61,20 @@ def _state(result: Result) -> tuple[str, str]:
     if result.success is None and result.episode.solved:
         return "solved, not judged", "good"
     return result.word, "good" if result.success else "bad"
+
+
+def report_of(run: Path, templates: Sequence[Path]) -> str | None:
+    """The name of a run's page in its folder, which is written where it is missing or older than the log.
+
+    None where there is no log that can be read.
+    """
+    path, log = run / "report.html", run / LOG
+    try:
+        if not path.is_file() or path.stat().st_mtime < log.stat().st_mtime:
+            write(read_story(run), templates, path)
+    except (UsageError, FileNotFoundError):
+        return None
+    return path.name
 
 
 def thumbnail(path: Path) -> str | None:

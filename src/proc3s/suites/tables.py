@@ -14,6 +14,9 @@ Line: TypeAlias = tuple[str, str]
 Read: TypeAlias = Callable[[Result], float | None]
 
 
+NOT_FINISHED = "not finished"
+"""Stands for a rate where no episode has come to its end."""
+
 STALE = "Success with answers to earlier prompts, %"
 """Title of the table of episodes that count in no other one."""
 
@@ -27,6 +30,11 @@ class SuiteTable:
     lines: tuple[tuple[str, ...], ...]
     note: str = ""
 
+    @property
+    def empty(self) -> bool:
+        """Whether there is nothing in it yet."""
+        return not any(cell not in ("", NOT_FINISHED) for line in self.lines for cell in line[1:])
+
 
 MEANS: tuple[tuple[str, str, str, Read], ...] = (
     ("ccsp_samples", "Samples", "{:.0f}", lambda r: r.episode.samples),
@@ -39,7 +47,11 @@ MEANS: tuple[tuple[str, str, str, Read], ...] = (
 
 
 def tables(results: Results, figures: Figures) -> Iterator[SuiteTable]:
-    """All tables, that of success first."""
+    """All tables in which there is something, that of success first."""
+    yield from (table for table in _all_tables(results, figures) if not table.empty)
+
+
+def _all_tables(results: Results, figures: Figures) -> Iterator[SuiteTable]:
     yield success_table(results, figures)
     yield outcome_table(results)
     if results.stale.all:
@@ -83,7 +95,7 @@ def _success(results: Results, line: Line, task: str) -> str:
     """One rate, bold where it is among the best of its task."""
     counted = rate_of(results.of(line, task))
     if not counted and results.words(line, task):
-        return "not finished"
+        return NOT_FINISHED
     if isinstance(counted, str):
         return counted
     good, of = counted
@@ -141,7 +153,8 @@ def _left_out(results: Results) -> SuiteTable:
     """What the paper's tables do not say."""
     lines = []
     for line in results.lines:
-        some = results.of(line)
+        if not (some := results.of(line)):
+            continue
         lines.append(
             (
                 results.label(line),
@@ -151,7 +164,7 @@ def _left_out(results: Results) -> SuiteTable:
                 str(sum(r.verdict is not None for r in some)),
                 _mean_of(some, "{:,.0f}", lambda r: r.episode.prompt_tokens),
                 _mean_of(some, "{:,.0f}", lambda r: r.episode.completion_tokens),
-                total([r.episode.cost for r in some], "{:.4f}") if some else "",
+                total([r.episode.cost for r in some], "{:.4f}"),
             )
         )
     head = ("method", "episodes", "solved", "solved but wrong", "judged by a person")

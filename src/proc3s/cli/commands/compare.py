@@ -17,9 +17,8 @@ def compare(
     import json as json_
 
     from rich.console import Console
-    from rich.markup import escape
-    from rich.table import Table
 
+    from proc3s.cli.console.tables import print_table
     from proc3s.cli.streams import print_document
     from proc3s.suites.comparison import comparison, outcomes
     from proc3s.suites.results import read_results
@@ -33,10 +32,7 @@ def compare(
         }
         print_document(json_.dumps({**told, "note": differences.note}, indent=2, ensure_ascii=False))
         return
-    out = Console(highlight=False, width=max(120, Console().width))
+    out = Console(highlight=False)
     for table in (differences, ended):
-        shown = Table(*table.head, box=None, pad_edge=False)
-        for line in table.lines:
-            shown.add_row(*map(escape, line))
-        out.print(shown)
-        out.print(table.note, style="dim")
+        print_table(out, table.head, table.lines)
+        out.print(table.note, style="dim", markup=False)

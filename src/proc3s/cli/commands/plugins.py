@@ -18,8 +18,8 @@ def plugins(
 
     from rich.console import Console
     from rich.markup import escape
-    from rich.table import Table
 
+    from proc3s.cli.console.tables import print_table
     from proc3s.cli.streams import print_document
     from proc3s.plugins.registry import KINDS, open_registry
 
@@ -31,10 +31,13 @@ def plugins(
     if json:
         print_document(json_.dumps([dataclasses.asdict(status) for status in statuses], indent=2))
     else:
-        table = Table("plugin", "from", "version", "state", box=None, pad_edge=False)
-        for s in statuses:
-            state = "loaded" if s.error is None else f"[red]failed:[/] {escape(s.error)}"
-            table.add_row(escape(s.name), escape(s.source), s.version or "", state)
-        Console().print(table)
+        out = Console(highlight=False)
+        states = ["loaded" if s.error is None else "failed" for s in statuses]
+        lines = [
+            (s.name, s.source, s.version or "", state) for s, state in zip(statuses, states, strict=True)
+        ]
+        print_table(out, ("plugin", "from", "version", "state"), lines)
+        for status in registry.plugins.failures:
+            out.print(f"[red]failed:[/] {escape(status.name)}: {escape(status.error or '')}", soft_wrap=True)
     if strict and registry.plugins.failures:
         raise typer.Exit(2)

@@ -8,7 +8,7 @@ from rich.console import Console as RichConsole
 from rich.markup import escape
 
 from proc3s.domain.values import Action
-from proc3s.feedback.report import Diagnosis, Failure
+from proc3s.feedback.report import Diagnosis
 from proc3s.feedback.shares import portion
 from proc3s.llm.budget import Spent
 from proc3s.llm.types import Completion
@@ -116,7 +116,7 @@ class Console:
         if diagnosis.alike:
             self.say(f"  no more were drawn: all of the first {diagnosis.samples} raised the same exception")
         for failure in (*diagnosis.program_errors, *diagnosis.failures)[:3]:
-            self.say(f"  {portion(failure.share):>5}  {describe(failure)}")
+            self.say(f"  {portion(failure.share):>5}  {failure.told}")
 
     def result(self, summary: Summary) -> None:
         """The outcome in a few lines on stdout."""
@@ -200,12 +200,3 @@ def _goal(summary: Summary) -> str:
 
 def _times(summary: Summary) -> str:
     return f"{summary.seconds['solve']:.2f} s solving, {summary.seconds['llm']:.2f} s LLM"
-
-
-def describe(failure: Failure) -> str:
-    """A failure on one line."""
-    if failure.step is not None:
-        return f"step {failure.step} ({failure.skill}): {failure.text}"
-    line = f" (line {failure.line}: {(failure.source or '').strip()})" if failure.line else ""
-    parameters = f", {failure.parameters}" if failure.parameters else ""
-    return f"{failure.kind}: {failure.text}{line}{parameters}"

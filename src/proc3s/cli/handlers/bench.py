@@ -10,12 +10,12 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 from rich.console import Console
-from rich.table import Table
 
 from proc3s.benchmark.cases import Case, find_cases
 from proc3s.benchmark.measurement import PLAIN, Measurement, SearchVariant
 from proc3s.benchmark.statistics import Row, rows
 from proc3s.benchmark.throughput import Bench
+from proc3s.cli.console.tables import print_table
 from proc3s.cli.streams import print_document
 from proc3s.errors import Interrupted, Proc3sError, UsageError
 from proc3s.plugins.registry import Registry, open_registry
@@ -33,10 +33,6 @@ BATCHES = (
     *("program", "way", "us/sample", STAGES, "samples/s", "screens: plans/s", "wrong rejects"),
     *("world: plans/s", "faster"),
 )
-
-
-_WIDTH = 180
-"""Columns of a table; a narrower terminal wraps its lines."""
 
 
 @dataclass(frozen=True)
@@ -221,11 +217,8 @@ def _markdown(results: Results) -> str:
 
 
 def _print(results: Results, folder: Path) -> None:
-    console = Console(highlight=False, width=max(_WIDTH, Console().width))
+    console = Console(highlight=False)
     for title, head, cells in _tables(results):
         console.print(title)
-        table = Table(*head, box=None, pad_edge=False)
-        for line in cells:
-            table.add_row(*line)
-        console.print(table)
+        print_table(console, head, cells, keys=2)
     console.print(f"folder   {folder}", soft_wrap=True)

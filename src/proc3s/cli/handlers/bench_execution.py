@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import Any
 
 from rich.console import Console
-from rich.table import Table
 
 from proc3s.benchmark.cases import Case, find_cases
 from proc3s.benchmark.execution_test import FieldTest, field_tests, judged
+from proc3s.cli.console.tables import print_table
 from proc3s.cli.handlers.bench import deliver, go_through, made_folder
 from proc3s.errors import Proc3sError
 from proc3s.plugins.registry import Registry, open_registry
@@ -95,8 +95,6 @@ def _row(case: str, robust: int, tests: Sequence[FieldTest]) -> tuple[Any, ...]:
 def _print(done: Sequence[FieldTest], folder: Path) -> None:
     console = Console(highlight=False)
     console.print("Plans carried out with small errors")
-    table = Table(*HEAD, box=None, pad_edge=False)
-    for *cells, share in _rows(done):
-        table.add_row(*map(str, cells), "" if share is None else f"{share:.1%}")
-    console.print(table)
+    lines = [[*map(str, cells), "" if share is None else f"{share:.1%}"] for *cells, share in _rows(done)]
+    print_table(console, HEAD, lines, keys=2)
     console.print(f"folder   {folder}", soft_wrap=True)

@@ -27,9 +27,10 @@ from proc3s.suites.changes import changes
 from proc3s.suites.export import FIGURES, document, write_files
 from proc3s.suites.lock import alone_in
 from proc3s.suites.outcomes import Unfinished, as_error, reasons
+from proc3s.suites.page import report_of
 from proc3s.suites.preflight import check_order
 from proc3s.suites.results import read_results
-from proc3s.suites.runner import ALIKE, Order, Runner, remaining
+from proc3s.suites.runner import ALIKE, RUNS, Order, Runner, remaining
 from proc3s.suites.store import Store
 from proc3s.wording import count
 
@@ -86,7 +87,7 @@ def _to_do(spec: SuiteSpec, resumed: Path | None) -> list[Cell]:
 
 
 def _carry_out(registry: Registry, order: Order, store: Store, wanted: SuiteWanted, as_json: bool) -> None:
-    spec, folder = order.spec, store.folder
+    spec, folder, templates = order.spec, store.folder, folders_of(registry)
     if wanted.resume is None:
         _begin(store, order)
     else:
@@ -100,11 +101,12 @@ def _carry_out(registry: Registry, order: Order, store: Store, wanted: SuiteWant
         with console:
             for outcome in runner.outcomes(todo):
                 console.add(outcome, runner.spent)
+                report_of(folder / RUNS / outcome.cell.folder, templates)  # now, so that the end is quick
                 unfinished += [outcome] if isinstance(outcome, Unfinished) else []
     except KeyboardInterrupt:
         stopped = Interrupted("interrupted; what is finished is kept")
     results = read_results(folder)
-    tables = write_files(results, folder, folders_of(registry))
+    tables = write_files(results, folder, templates)
     if as_json:
         print_document(json.dumps(document(results, tables), indent=2, ensure_ascii=False))
     else:

@@ -33,10 +33,12 @@ def print_list(kind: str | None, plugins: Sequence[Path], as_json: bool) -> None
     if as_json:
         print_document(json.dumps(rows, indent=2, ensure_ascii=False))
         return
-    out = Console(soft_wrap=True, highlight=False)
+    out = Console(highlight=False)
     for name, entries in rows.items():
         if entries:
             table = Table(box=None, show_header=False, pad_edge=False, padding=(0, 2))
+            table.add_column(no_wrap=True)
+            table.add_column(overflow="fold")
             for entry, summary in entries.items():
                 table.add_row("  " + escape(entry), escape(summary))
             out.print(f"[bold]{name}[/]")
