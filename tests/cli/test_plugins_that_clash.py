@@ -77,6 +77,16 @@ def test_a_duplicate_is_refused_as_a_whole_whatever_it_is(cli, install, kind):
     assert cli("plugins", "--strict").code == 2
 
 
+def test_the_list_of_plugins_says_in_full_why_one_is_broken(cli, install, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "80")
+    reason = " ".join(["the calibration file of the gripper on the bench of the laboratory is missing"] * 3)
+    install("zzz-a-plugin-with-a-name-longer-than-those-of-others", f"raise ValueError({reason!r})")
+    told = cli("plugins").stdout
+    assert "failed: zzz_a_plugin_with_a_name_longer_than_those_of_others: " in told
+    assert reason in told
+    assert "…" not in told
+
+
 def test_the_first_by_name_wins_whatever_was_installed_first(cli, install):
     for dist in ("ccc-other", "bbb-other", "aaa-other"):
         install(dist, hook("solvers", f'(SolverSpec(name="same", summary="of {dist}", target="json:loads"))'))
