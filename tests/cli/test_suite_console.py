@@ -6,6 +6,7 @@ import re
 import pytest
 from rich.console import Console
 
+from proc3s.cli.console.lines import print_line
 from proc3s.cli.console.suite import SuiteConsole
 from proc3s.cli.console.tables import print_table
 from proc3s.specs.suite import Cell, SuiteSpec
@@ -83,3 +84,15 @@ def test_one_that_is_too_wide_both_ways_stands_in_parts_and_loses_nothing(keys):
     assert all(text.count(name) == 1 for name in head[keys:])
     assert all(cell in text for row in rows for cell in row)
     assert all(line.startswith("method") for line in lines)
+
+
+def test_a_terminal_breaks_lines_between_words_and_nobody_else_does():
+    said = "  collision: the hand over the bowl touches the tall block that stands beside it"
+    out, pipe = io.StringIO(), io.StringIO()
+    print_line(Console(file=out, width=40, force_terminal=True), said)
+    print_line(Console(file=pipe, width=40), said)
+    lines = out.getvalue().splitlines()
+    assert len(lines) > 1
+    assert all(line.startswith("  ") and len(line) <= 40 for line in lines)
+    assert " ".join(line.strip() for line in lines) == said.strip()
+    assert pipe.getvalue() == said + "\n"

@@ -2,8 +2,6 @@
 
 import json as json_module
 
-import typer
-
 from proc3s.cli import arguments as a
 
 
@@ -13,6 +11,10 @@ def explain(
     json: a.Json = False,
 ) -> None:
     """Say in plain words, round by round, what failed in a run, what changed, and where to look."""
+    from rich.console import Console
+    from rich.markup import escape
+
+    from proc3s.cli.console.lines import print_line
     from proc3s.cli.handlers.runs import chosen_run
     from proc3s.cli.streams import print_document
     from proc3s.plugins.registry import folders_of, open_registry
@@ -23,4 +25,6 @@ def explain(
     if json:
         print_document(json_module.dumps(explained(story, folders), indent=2))
     else:
-        typer.echo(explain(story, folders), nl=False)
+        out = Console(highlight=False)
+        for line in explain(story, folders).splitlines():
+            print_line(out, escape(line))

@@ -7,6 +7,7 @@ from types import TracebackType
 from rich.console import Console as RichConsole
 from rich.markup import escape
 
+from proc3s.cli.console.lines import print_line
 from proc3s.domain.values import Action
 from proc3s.feedback.report import Diagnosis
 from proc3s.feedback.shares import portion
@@ -101,7 +102,7 @@ class Console:
 
     def say(self, text: str) -> None:
         """A line on stderr."""
-        self._err.print(escape(text))
+        print_line(self._err, escape(text))
 
     def _loaded(self, event: SketchLoaded) -> None:
         listed = ", ".join(event.parameters)
@@ -123,30 +124,30 @@ class Console:
         if self._quiet:
             return
         out = RichConsole(highlight=False, soft_wrap=True)
-        out.print(_headline(summary))
+        print_line(out, _headline(summary))
         if summary.error is None or summary.solved:
-            out.print(escape(f"goal     {_goal(summary)}"))
+            print_line(out, escape(f"goal     {_goal(summary)}"))
         if summary.samples:
             rounds = count(summary.rounds + 1, "round")
-            out.print(f"samples  {summary.samples} in {rounds}, {_times(summary)}")
+            print_line(out, f"samples  {summary.samples} in {rounds}, {_times(summary)}")
         elif summary.seconds:
-            out.print(f"time     {_times(summary)}; no sample was drawn")
+            print_line(out, f"time     {_times(summary)}; no sample was drawn")
         for screen, rejected in summary.rejected_by.items():
             if rejected:
-                out.print(f"screen   {screen} rejected {rejected}")
+                print_line(out, f"screen   {screen} rejected {rejected}")
         if summary.usage.calls:
-            out.print(f"answers  {_spent(summary.usage)}")
+            print_line(out, f"answers  {_spent(summary.usage)}")
         if summary.llm_source == "authored":
-            out.print("answer   authored (written by hand, not by a model)")
+            print_line(out, "answer   authored (written by hand, not by a model)")
         if summary.stale:
-            out.print("answer   stale (given to another prompt than that of this run)")
+            print_line(out, "answer   stale (given to another prompt than that of this run)")
         for step, action in enumerate(summary.plan or []):
-            out.print(escape(f"  {step:2d}  {Action.from_json(action)}"))
+            print_line(out, escape(f"  {step:2d}  {Action.from_json(action)}"))
         for violation in summary.violations[:5]:
-            out.print(escape(f"  violated at step {violation['step']}: {violation['text']}"))
+            print_line(out, escape(f"  violated at step {violation['step']}: {violation['text']}"))
         miss = Path(summary.run_dir or "") / NEAREST_MISS
         if not summary.solved and miss.is_file():
-            out.print(escape(f"nearest  {_nearest(summary)}"))
+            print_line(out, escape(f"nearest  {_nearest(summary)}"))
             out.print(escape(f"picture  {miss}"))
         out.print(escape(f"folder   {summary.run_dir}"))
 

@@ -9,6 +9,7 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
+from proc3s.cli.console.lines import print_line
 from proc3s.cli.failures import warn_of_failures
 from proc3s.cli.streams import json_of, print_document
 from proc3s.domain.domain import Domain
@@ -66,7 +67,7 @@ def print_spec(name: str, plugins: Sequence[Path], as_json: bool) -> None:
     out = Console(soft_wrap=True, highlight=False)
     for spec in specs:
         for line in _describe(registry, spec):
-            out.print(line)
+            print_line(out, line)
 
 
 def _find(registry: Registry, name: str) -> list[Spec]:
