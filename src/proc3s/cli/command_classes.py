@@ -34,4 +34,4 @@ def _for_help(params: list[Any]) -> list[Any]:
             param.rich_help_panel = param.rich_help_panel or "Output"
         if getattr(param, "is_flag", False):
             param.metavar = ""
-    return params
+    return sorted(params, key=lambda param: param.rich_help_panel == "Output")  # which comes last

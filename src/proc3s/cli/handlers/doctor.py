@@ -10,6 +10,7 @@ from proc3s.checks.finding import Finding
 from proc3s.checks.installation import examine
 from proc3s.checks.question import ask
 from proc3s.cli.arguments import OPTIONS, Given
+from proc3s.cli.console.lines import print_line
 from proc3s.cli.streams import print_document
 from proc3s.errors import UsageError
 from proc3s.llm.budget import Budget
@@ -47,6 +48,6 @@ def _show(findings: Sequence[Finding], as_json: bool) -> None:
     console = Console(highlight=False, soft_wrap=True)
     for finding in findings:
         text = escape(f"{finding.subject}: {finding.text}")
-        console.print(f"[{_COLOURS[finding.level]}]{finding.level:5}[/]  {text}")
+        print_line(console, f"[{_COLOURS[finding.level]}]{finding.level:5}[/]  {text}")
         if finding.advice:
-            console.print(escape(f"       {finding.advice}"))
+            print_line(console, escape(f"       {finding.advice}"))
