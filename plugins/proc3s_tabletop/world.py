@@ -32,6 +32,11 @@ if TYPE_CHECKING:
     from proc3s import Domain
 
 
+COARSE = 0.003
+"""Pieces that are further from their mesh, m, are worth a word."""
+ADVICE = "; that is coarse: leave as much room around it, or declare a box, a cylinder or a bowl instead"
+
+
 class TabletopWorld(World[Telemetry]):
     """Picks and places among the `objects` of a state: name -> something with `category` and `pose`.
 
@@ -160,6 +165,7 @@ class TabletopWorld(World[Telemetry]):
         meshes = {name: body.shape for name, body in self.categories.items() if isinstance(body.shape, Mesh)}
         return [
             f"{name}: {len(mesh.pieces)} convex pieces, {1e3 * mesh.error:.1f} mm off the mesh"
+            + (ADVICE if mesh.error > COARSE else "")
             for name, mesh in meshes.items()
         ]
 

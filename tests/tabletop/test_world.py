@@ -1,9 +1,12 @@
 from dataclasses import dataclass
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 from proc3s import Action, Pose, SpecError, State
+from proc3s_tabletop.objects.body import Body
+from proc3s_tabletop.objects.shapes import Mesh, Surface
 from proc3s_tabletop.skills import pick, place
 from proc3s_tabletop.world import ReferenceWorld
 
@@ -89,3 +92,13 @@ def test_poses_survive_the_simulator(world):
     assert poses.numbers(poses.frame(turned)) == pytest.approx(vars(turned))
     rotation = world.table.scene.client.getQuaternionFromEuler([0.2, -0.7, 2.5])
     assert poses.frame(turned).rotation == pytest.approx(rotation)
+
+
+def test_pieces_that_are_far_from_their_mesh_come_with_advice():
+    none = np.zeros((0, 3))
+    world = ReferenceWorld(SimpleNamespace())
+    for name, error in {"fine": 0.0018, "plate": 0.0056}.items():
+        world.categories = {name: Body(Mesh(name, (none,), none, Surface(none, none), error), 0.1)}
+        (fact,) = world.facts()
+        assert fact.startswith(f"{name}: 1 convex pieces, {1e3 * error:.1f} mm off the mesh")
+        assert ("declare a box, a cylinder or a bowl" in fact) == (name == "plate")
