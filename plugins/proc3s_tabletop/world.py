@@ -33,8 +33,11 @@ if TYPE_CHECKING:
 
 
 COARSE = 0.003
-"""Pieces that are further from their mesh, m, are worth a word."""
-ADVICE = "; that is coarse: leave as much room around it, or declare a box, a cylinder or a bowl instead"
+"""Pieces that are further from their mesh than this, m, are too coarse for some plans."""
+FINER = (
+    "give it a smaller `concavity` (0.01, then 0.006: more pieces, which are slower), "
+    "declare a box, a cylinder or a bowl instead, or leave as much room around it"
+)
 
 
 class TabletopWorld(World[Telemetry]):
@@ -162,12 +165,22 @@ class TabletopWorld(World[Telemetry]):
 
     def facts(self) -> list[str]:
         """How far convex pieces are from their mesh: the 95th percentile of the surfaces' distance."""
-        meshes = {name: body.shape for name, body in self.categories.items() if isinstance(body.shape, Mesh)}
         return [
             f"{name}: {len(mesh.pieces)} convex pieces, {1e3 * mesh.error:.1f} mm off the mesh"
-            + (ADVICE if mesh.error > COARSE else "")
-            for name, mesh in meshes.items()
+            for name, mesh in self._meshes().items()
         ]
+
+    def coarse(self) -> dict[str, str]:
+        """Bodies whose pieces are more than 3 mm off their mesh, and what makes them finer."""
+        return {
+            f"the {len(mesh.pieces)} convex pieces of {name} are {1e3 * mesh.error:.1f} mm off it": FINER
+            for name, mesh in self._meshes().items()
+            if mesh.error > COARSE
+        }
+
+    def _meshes(self) -> dict[str, Mesh]:
+        """The meshes by category."""
+        return {name: body.shape for name, body in self.categories.items() if isinstance(body.shape, Mesh)}
 
     def close(self) -> None:
         """Release the simulator."""

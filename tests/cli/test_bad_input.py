@@ -44,7 +44,6 @@ def said(result):
         ),
         (["run", "drawing/star", "--template-dir", "nowhere"], ["nowhere"]),
         (["run", "drawing/star", "--plugin", "nowhere.py"], ["nowhere.py"]),
-        (["run", "drawing/free"], ["--goal"]),
         (["run", "drawing/free", "--goal", ""], ["--goal"]),
         (["solve", "drawing/star", "--sketch", "nowhere.py"], ["nowhere.py"]),
         (["replay", "nowhere"], ["nowhere", "no run folder"]),
@@ -69,6 +68,13 @@ def test_one_line_that_says_what_exists(cli, here, args, words):
     for word in words:
         assert word in said(result)
     assert "Traceback" not in result.stderr
+
+
+def test_a_task_without_an_instruction_says_first_that_it_needs_one(cli):
+    result = cli("run", "drawing/free")
+    assert result.code == 2
+    first = said(result).splitlines()[0]
+    assert first == "drawing/free has no instruction of its own; give one with --goal,"
 
 
 @pytest.mark.parametrize(

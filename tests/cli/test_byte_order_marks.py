@@ -155,4 +155,4 @@ def test_a_file_that_is_no_text_is_said(cli, here):
     (here / "old.md").write_bytes(b"\xe9")
     done = cli("render-prompt", "drawing/star", "--diff", "old.md")
     assert done.code == 2
-    assert "old.md cannot be read" in done.stderr
+    assert "old.md is no rendering of a prompt: it is no UTF-8 text" in done.stderr

@@ -243,7 +243,7 @@ def test_an_instruction_of_ones_own_is_not_judged_and_says_so(cli, stub, answers
 
 def test_the_bundled_answer_is_no_answer_to_another_goal(cli):
     result = cli("run", "drawing/star", "--goal", "draw a house", "--json")
-    assert result.code == 3
+    assert result.code == 2
     assert "--llm" in result.json["error"]
 
 

@@ -1,5 +1,7 @@
 """What a target does not take, and details that no margin carries, are said before anybody is asked."""
 
+import sys
+
 import pytest
 
 DOMAIN = """\
@@ -28,6 +30,14 @@ def fine(state, plan): return Score(True, "fine")
 """
 
 
+@pytest.fixture(autouse=True)
+def _toys_of_another_test_are_not_found(here, monkeypatch):
+    monkeypatch.syspath_prepend(here)
+    monkeypatch.delitem(sys.modules, "toys", raising=False)
+    yield
+    sys.modules.pop("toys", None)
+
+
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [
@@ -41,8 +51,7 @@ def fine(state, plan): return Score(True, "fine")
         ("toys:fine", "toys:nothing", ["domain.yaml:11", "toys has no 'nothing'"]),
     ],
 )
-def test_said_by_check_and_before_the_first_question(cli, here, monkeypatch, old, new, words):
-    monkeypatch.syspath_prepend(here)
+def test_said_by_check_and_before_the_first_question(cli, here, old, new, words):
     assert old in DOMAIN
     (here / "domain.yaml").write_text(DOMAIN.replace(old, new))
     (here / "toys.py").write_text(TOYS)
@@ -55,8 +64,7 @@ def test_said_by_check_and_before_the_first_question(cli, here, monkeypatch, old
         assert word in asked.stderr
 
 
-def test_what_fits_is_not_refused(cli, here, monkeypatch):
-    monkeypatch.syspath_prepend(here)
+def test_what_fits_is_not_refused(cli, here):
     (here / "domain.yaml").write_text(DOMAIN.replace('toys:few"', 'toys:few", args: {most: 3}'))
     (here / "toys.py").write_text(TOYS)
     (here / "program.py").write_text("def gen_plan(initial):\n    return [Action('add', [1.0])]\n")

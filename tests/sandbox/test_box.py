@@ -114,9 +114,9 @@ def test_a_literal_plan(box):
     batch = box(source, "plan").plans(np.empty((2, 0)))
     assert batch.plan(0) == batch.plan(1)
     assert [str(a) for a in batch.plan(0)] == [
-        "draw_line(1.00, 2.00, 3.00, 4.00)",
+        "draw_line(1, 2, 3, 4)",
         "repeat(2)",
-        "draw_line(5.00, 6.00, 7.00, 8.00)",
+        "draw_line(5, 6, 7, 8)",
     ]
 
 

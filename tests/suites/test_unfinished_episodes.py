@@ -116,7 +116,7 @@ def test_an_episode_that_cannot_be_carried_out_is_tried_again_and_in_no_rate(ben
     (here / "broken").touch()
     result = bench("--out", "out", seeds=2)
     assert result.code == 2
-    assert "hall-walk.proc3s-nf.best.seed1: not finished, error: " in result.stderr
+    assert "hall/walk proc3s-nf seed 1: not finished, error: " in result.stderr
     assert "1 episode is not finished; go on with --resume out" in result.stderr
     assert [(seed, word) for seed, word, _ in left(here / "out")] == [(1, "error")]
     assert "no light in here" in left(here / "out")[0][2]

@@ -204,3 +204,14 @@ def test_a_size_is_told_without_an_exponent(fresh, tmp_path):
     BOX.copy().apply_scale(1e6).export(tmp_path / "vast.stl")
     with pytest.raises(SpecError, match=r"vast.stl is 50000 x 40000 x 30000 m: is its scale right\?"):
         mesh(tmp_path / "vast.stl", scale=1.0)
+
+
+@pytest.mark.slow
+def test_a_smaller_concavity_makes_finer_pieces():
+    coarse, fine = (
+        ycb("022_windex_bottle", mass=0.5).shape,
+        ycb("022_windex_bottle", mass=0.5, concavity=0.01).shape,
+    )
+    assert len(fine.pieces) > len(coarse.pieces)
+    assert fine.error < 0.002 < coarse.error
+    assert fine.key != coarse.key

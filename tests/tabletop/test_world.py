@@ -99,6 +99,7 @@ def test_pieces_that_are_far_from_their_mesh_come_with_advice():
     world = ReferenceWorld(SimpleNamespace())
     for name, error in {"fine": 0.0018, "plate": 0.0056}.items():
         world.categories = {name: Body(Mesh(name, (none,), none, Surface(none, none), error), 0.1)}
-        (fact,) = world.facts()
-        assert fact.startswith(f"{name}: 1 convex pieces, {1e3 * error:.1f} mm off the mesh")
-        assert ("declare a box, a cylinder or a bowl" in fact) == (name == "plate")
+        assert world.facts() == [f"{name}: 1 convex pieces, {1e3 * error:.1f} mm off the mesh"]
+        told = {text: "`concavity`" in advice for text, advice in world.coarse().items()}
+        coarse = {"the 1 convex pieces of plate are 5.6 mm off it": True}
+        assert told == (coarse if name == "plate" else {})

@@ -17,6 +17,7 @@ from proc3s_tabletop.objects.shapes import Bowl, Box, Cylinder, Shape
 Length = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 Angle = Annotated[float, Field(allow_inf_nan=False)]
 Friction = Annotated[float, Field(ge=0, allow_inf_nan=False)]
+Share = Annotated[float, Field(ge=0.001, le=0.5, allow_inf_nan=False)]
 
 
 class BodySpec(BaseModel):
@@ -104,10 +105,13 @@ class MeshSpec(BodySpec):
     """Metres for a one in the file: 0.001 where it is in mm."""
     turn: tuple[Angle, Angle, Angle] = (0.0, 0.0, 0.0)
     """Roll, pitch, yaw, rad, that bring it roughly to how it stands."""
+    concavity: Share | None = None
+    """How hollow a convex piece may be, a share of the longest edge; less makes more pieces, nearer to the
+    mesh, and slower. By default a few cuts, or 0.02."""
 
     def body(self) -> Body:
         """The body at rest. Raises ValueError for a file that is missing or no mesh."""
-        shape = prepare(Path(self.path), self.scale, self.turn)
+        shape = prepare(Path(self.path), self.scale, self.turn, self.concavity)
         return Body(shape, self.mass, self.friction, self.rolling_friction, self.spinning_friction)
 
 
@@ -128,6 +132,8 @@ class YcbSpec(BaseModel):
     """Coefficient of rolling, m."""
     spinning_friction: Friction | None = None
     """Coefficient of turning on the spot, m."""
+    concavity: Share | None = None
+    """How hollow a convex piece may be, as of a mesh."""
 
     @field_validator("model")
     @classmethod
@@ -145,9 +151,10 @@ class YcbSpec(BaseModel):
 
     def body(self) -> Body:
         """The body at rest."""
-        given = self.model_dump(exclude={"shape", "model"}, exclude_none=True)
+        given = self.model_dump(exclude={"shape", "model", "concavity"}, exclude_none=True)
         known = ycb.table().get(self.model)
-        return Body(prepare(ycb.models()[self.model]), **{**(vars(known) if known else {}), **given})
+        shape = prepare(ycb.models()[self.model], concavity=self.concavity)
+        return Body(shape, **{**(vars(known) if known else {}), **given})
 
 
 SHAPES: Mapping[str, type[BodySpec | YcbSpec]] = {

@@ -7,21 +7,22 @@ import numpy as np
 from proc3s import FloatArray
 from proc3s_tabletop.objects.extents import FLAT, thickness
 
-TOLERANCE, SHARE = 0.0022, 0.02
+TOLERANCE, CONCAVITY = 0.0022, 0.02
 """How hollow a piece may be, m; or, if more, which share of the body's longest edge."""
 OVERLAP = 0.0005
 """Pieces reach so far into their neighbours, m: between the margins around them a groove of 0.13 mm stays."""
 
 
-def take_apart(mesh: Any) -> list[FloatArray]:
-    """The points (n, 3) of nearly convex parts of a trimesh mesh, m."""
+def take_apart(mesh: Any, concavity: float | None = None) -> list[FloatArray]:
+    """The points (n, 3) of nearly convex parts of a trimesh mesh, m, `concavity` hollow if it is given."""
     import coacd
 
     coacd.set_log_level("error")
     half = float(np.ptp(mesh.vertices, axis=0).max()) / 2  # what CoACD takes as its unit
+    hollow = max(TOLERANCE / half, 2 * CONCAVITY) if concavity is None else 2 * concavity
     parts = coacd.run_coacd(
         coacd.Mesh(mesh.vertices, mesh.faces),
-        threshold=min(1.0, max(TOLERANCE / half, 2 * SHARE)),
+        threshold=min(1.0, hollow),
         extrude=True,
         extrude_margin=OVERLAP / half,
         merge=False,

@@ -15,14 +15,15 @@ MOST = 64
 """Corners of a piece; Bullet slows down beyond."""
 
 
-def pieces_of(mesh: Any) -> list[FloatArray]:
+def pieces_of(mesh: Any, concavity: float | None = None) -> list[FloatArray]:
     """Corners (n, 3) of every convex piece of a trimesh mesh, m; each is to be surrounded by MARGIN.
 
-    The same mesh always gives the same pieces: between a few planes, where those do, or else CoACD's.
+    The same mesh always gives the same pieces: between a few planes, where those do, or else CoACD's, which
+    are as hollow as `concavity` allows, a share of the longest edge.
     """
     sparse = closed(mesh) and abs(mesh.volume) < FULL * mesh.convex_hull.volume
-    parts = None if sparse else cut(mesh)
-    return [core(points) for points in parts or take_apart(mesh)]
+    parts = None if sparse or concavity is not None else cut(mesh)
+    return [core(points) for points in parts or take_apart(mesh, concavity)]
 
 
 def closed(mesh: Any) -> bool:

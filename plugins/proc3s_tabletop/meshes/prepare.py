@@ -29,7 +29,9 @@ class MeshError(ValueError):
     """A file that is no mesh of a body; the sentence begins with its name."""
 
 
-def prepare(path: Path, scale: float = 1.0, turn: Turn = (0.0, 0.0, 0.0)) -> Mesh:
+def prepare(
+    path: Path, scale: float = 1.0, turn: Turn = (0.0, 0.0, 0.0), concavity: float | None = None
+) -> Mesh:
     """A mesh file as a body in metres: `scale` times its numbers, turned by roll, pitch, yaw (rad), at rest.
 
     Raises MeshError that says what is wrong with a file that is no mesh of a body.
@@ -37,15 +39,18 @@ def prepare(path: Path, scale: float = 1.0, turn: Turn = (0.0, 0.0, 0.0)) -> Mes
     if not path.is_file():
         raise MeshError(f"there is no file {path}")
     stat = path.stat()
-    return _prepared(path, scale, turn, (stat.st_mtime_ns, stat.st_size))
+    return _prepared(path, scale, turn, concavity, (stat.st_mtime_ns, stat.st_size))
 
 
 @functools.lru_cache(maxsize=256)
-def _prepared(path: Path, scale: float, turn: Turn, version: tuple[int, int]) -> Mesh:
+def _prepared(
+    path: Path, scale: float, turn: Turn, concavity: float | None, version: tuple[int, int]
+) -> Mesh:
     content = path.read_bytes()
-    said = f"{FORMAT} {path.suffix.lower()} {scale!r} {turn!r} {MARGIN!r}\n"
+    finer = "" if concavity is None else f" {concavity!r}"
+    said = f"{FORMAT} {path.suffix.lower()} {scale!r} {turn!r} {MARGIN!r}{finer}\n"
     key = hashlib.sha256(said.encode() + content).hexdigest()
-    found = mesh_cache.kept(key, lambda: _made_or_said(path, scale, turn))
+    found = mesh_cache.kept(key, lambda: _made_or_said(path, scale, turn, concavity))
     counts = np.cumsum(found["counts"])[:-1]
     return Mesh(
         key,
@@ -56,10 +61,10 @@ def _prepared(path: Path, scale: float, turn: Turn, version: tuple[int, int]) ->
     )
 
 
-def _made_or_said(path: Path, scale: float, turn: Turn) -> mesh_cache.Arrays:
+def _made_or_said(path: Path, scale: float, turn: Turn, concavity: float | None) -> mesh_cache.Arrays:
     """The same as `_made`; where geometry fails in some library, a sentence."""
     try:
-        return _made(path, scale, turn)
+        return _made(path, scale, turn, concavity)
     except (MeshError, UsageError):
         raise
     except Exception as error:  # Qhull, scipy, trimesh and CoACD have each their own
@@ -70,14 +75,14 @@ def _first_line(error: Exception) -> str:
     return next(iter(str(error).strip().splitlines()), type(error).__name__)
 
 
-def _made(path: Path, scale: float, turn: Turn) -> mesh_cache.Arrays:
+def _made(path: Path, scale: float, turn: Turn, concavity: float | None) -> mesh_cache.Arrays:
     """Everything that is known of a mesh, as arrays."""
     from proc3s_tabletop.meshes.accuracy import distance
     from proc3s_tabletop.meshes.pieces import closed, pieces_of
     from proc3s_tabletop.meshes.rest_pose import rest
 
     mesh = _read(path, scale, turn)
-    pieces = pieces_of(mesh)
+    pieces = pieces_of(mesh, concavity)
     middle = mesh.center_mass if closed(mesh) else _middle(pieces)
     pieces = [piece - middle for piece in pieces]
     turned = rest(pieces)

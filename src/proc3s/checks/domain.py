@@ -79,6 +79,12 @@ CHECKS: tuple[Check, ...] = (
         reading.states,
     ),
     Check(
+        "models",
+        "plans are worth what the world's models of bodies are worth",
+        "make the model finer",
+        reading.models,
+    ),
+    Check(
         "prompts",
         "the model reads what is rendered",
         "correct the template, the preface or the example that is named",

@@ -1,15 +1,16 @@
-"""Checks of what is read before anything moves: targets, scenes, states, prompts."""
+"""Checks of what is read before anything moves: targets, scenes, states, models, prompts."""
 
 import json
 import math
 import time
 from collections.abc import Iterator
+from contextlib import closing
 from typing import Any
 
 from proc3s.checks.fault import Fault
 from proc3s.checks.subject import SEEDS, Subject
 from proc3s.domain.source_text import source_text
-from proc3s.domain.world import flaws_of
+from proc3s.domain.world import flaws_of, make_world
 from proc3s.errors import Proc3sError, SpecError
 from proc3s.planning.options import RunOptions
 from proc3s.planning.setup import make_prompter
@@ -75,6 +76,13 @@ def _finite(value: Any) -> bool:
     if isinstance(value, list | tuple):
         return all(map(_finite, value))
     return not isinstance(value, float) or math.isfinite(value)
+
+
+def models(subject: Subject) -> Iterator[Fault]:
+    """The world's models of bodies are exact enough."""
+    with closing(make_world(subject.domain)) as world:
+        for text, advice in world.coarse().items():
+            yield Fault(text, mend=advice, error=False)
 
 
 def prompts(subject: Subject) -> Iterator[Fault]:

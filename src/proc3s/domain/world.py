@@ -1,6 +1,6 @@
 """Worlds: the transition models that accept or refuse plans."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
@@ -125,6 +125,10 @@ class World(Generic[T]):
     def facts(self) -> Sequence[str]:
         """Measured accuracy of its models, one line each: `proc3s check` prints them."""
         return ()
+
+    def coarse(self) -> Mapping[str, str]:
+        """Models less exact than plans may need, a sentence each, and what to do; `proc3s check` notes it."""
+        return {}
 
     def close(self) -> None:
         """Release simulators and files that the world holds."""

@@ -11,7 +11,7 @@ from proc3s.domain.state import State
 from proc3s.domain.values import Plan
 from proc3s.domain.world import Score, World, make_world
 from proc3s.errors import blame
-from proc3s.planning.pictures import drawing
+from proc3s.planning.pictures import told_if_missing
 from proc3s.runs.events import Emit, PlanExecuted
 from proc3s.search.problem import Problem
 from proc3s.search.rollout import carry_out, judge
@@ -80,7 +80,7 @@ def _carry_out(
 def _draw(plan: Plan, picture: Path | None, emit: Emit, world: World[Any]) -> None:
     """Draw the outcome, if a picture is wanted."""
     if picture is not None:
-        with drawing(picture, emit):
+        with told_if_missing(picture, emit):
             world.render(plan, picture)
 
 

@@ -43,7 +43,7 @@ def nearest_miss(attempts: Sequence[Attempt]) -> Miss | None:
 
 
 @contextmanager
-def drawing(picture: Path, emit: Emit) -> Iterator[None]:
+def told_if_missing(picture: Path, emit: Emit) -> Iterator[None]:
     """Without its picture a run is as good: what keeps it from being drawn is only told."""
     try:
         with blame("world"):
@@ -62,12 +62,12 @@ def draw_unsolved(problem: Problem, miss: Miss | None, folder: Path, emit: Emit)
     with closing(make_world(problem.domain)) as world:
         if not draws(world):
             return
-        with drawing(folder / SCENE, emit):
+        with told_if_missing(folder / SCENE, emit):
             world.reset(problem.initial)
             world.render_marked((), folder / SCENE, ())
         if miss is None:
             return
-        with drawing(folder / NEAREST_MISS, emit):
+        with told_if_missing(folder / NEAREST_MISS, emit):
             carry_out(world, problem, miss.plan)
             marked = _named(problem.domain.object_names(problem.initial), miss.text)
             world.render_marked(miss.plan, folder / NEAREST_MISS, marked)

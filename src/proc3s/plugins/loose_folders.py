@@ -59,7 +59,7 @@ def loose_plugins(path: Path) -> list[LoosePlugin]:
     if path.is_dir():
         return _in_folder(path.resolve())
     if path.suffix in (".yaml", ".yml"):
-        name = path.parent.name if path.stem == "domain" else path.stem
+        name = path.resolve().parent.name if path.stem == "domain" else path.stem
         return [LoosePlugin(name, partial(DomainFile, path))]
     return [LoosePlugin(path.stem, partial(import_loose_file, path))]
 

@@ -40,7 +40,7 @@ def newest_run(folder: Path = RUNS) -> Path:
         return itself(latest)
     if runs := runs_of(folder):
         return runs[0]
-    raise UsageError(f"there is no run in {folder}; name a run folder, or try `proc3s run drawing/star`")
+    raise UsageError(f"there is no run in {folder}; name a run folder, or begin a run: proc3s run TASK")
 
 
 def runs_of(folder: Path) -> list[Path]:

@@ -90,7 +90,8 @@ def _found(wanted: str, plugins: Sequence[Path]) -> tuple[Registry, str]:
         of_file = [one.name for one in domains if one.folder and one.folder.samefile(file.parent)]
         if of_file:
             return registry, of_file[-1]
-    raise UsageError(f"no plugin brings the domain of {file}")
+    warn_of_failures(registry)
+    raise UsageError(f"the domain of {file} cannot be loaded")
 
 
 def _plugin(path: Path, file: Path) -> Path:
