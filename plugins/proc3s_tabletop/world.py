@@ -10,6 +10,7 @@ import numpy as np
 
 from proc3s import Action, Plan, SpecError, State, Transition, World
 from proc3s.errors import Issue
+from proc3s.wording import count
 from proc3s_tabletop.actions.disturbances import OFF, Disturbance
 from proc3s_tabletop.actions.execution import Execution
 from proc3s_tabletop.actions.reference import Reference
@@ -166,14 +167,14 @@ class TabletopWorld(World[Telemetry]):
     def facts(self) -> list[str]:
         """How far convex pieces are from their mesh: the 95th percentile of the surfaces' distance."""
         return [
-            f"{name}: {len(mesh.pieces)} convex pieces, {1e3 * mesh.error:.1f} mm off the mesh"
+            f"{name}: {count(len(mesh.pieces), 'convex piece')}, {1e3 * mesh.error:.1f} mm off the mesh"
             for name, mesh in self._meshes().items()
         ]
 
     def coarse(self) -> dict[str, str]:
         """Bodies whose pieces are more than 3 mm off their mesh, and what makes them finer."""
         return {
-            f"the {len(mesh.pieces)} convex pieces of {name} are {1e3 * mesh.error:.1f} mm off it": FINER
+            f"{name} is {1e3 * mesh.error:.1f} mm off its {count(len(mesh.pieces), 'convex piece')}": FINER
             for name, mesh in self._meshes().items()
             if mesh.error > COARSE
         }

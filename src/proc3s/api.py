@@ -138,7 +138,7 @@ def get_domain(name: str, plugins: Plugins = ()) -> Domain:
 
 
 def _paths(plugins: Plugins) -> list[Path]:
-    return [Path(path).resolve() for path in plugins]
+    return [Path(path).absolute() for path in plugins]
 
 
 def _options(given: dict[str, Any], plugins: Plugins) -> RunOptions:

@@ -99,7 +99,7 @@ def test_pieces_that_are_far_from_their_mesh_come_with_advice():
     world = ReferenceWorld(SimpleNamespace())
     for name, error in {"fine": 0.0018, "plate": 0.0056}.items():
         world.categories = {name: Body(Mesh(name, (none,), none, Surface(none, none), error), 0.1)}
-        assert world.facts() == [f"{name}: 1 convex pieces, {1e3 * error:.1f} mm off the mesh"]
+        assert world.facts() == [f"{name}: 1 convex piece, {1e3 * error:.1f} mm off the mesh"]
         told = {text: "`concavity`" in advice for text, advice in world.coarse().items()}
-        coarse = {"the 1 convex pieces of plate are 5.6 mm off it": True}
+        coarse = {"plate is 5.6 mm off its 1 convex piece": True}
         assert told == (coarse if name == "plate" else {})

@@ -10,7 +10,7 @@ import numpy as np
 from proc3s import FloatArray
 from proc3s_tabletop.bullet.client import Client
 from proc3s_tabletop.bullet.collision_shapes import collision_shape
-from proc3s_tabletop.objects.shapes import Bowl, Mesh, Shape, Surface
+from proc3s_tabletop.objects.shapes import Bowl, Cylinder, Mesh, Shape, Surface
 
 Color: TypeAlias = tuple[float, float, float, float]
 
@@ -30,9 +30,9 @@ def color_of(name: str) -> Color:
 
 def create(shape: Shape, client: Client, folder: Path, color: Color) -> int:
     """The PyBullet id of a body that is only to be looked at; files that it is read from go to `folder`."""
-    if isinstance(shape, Bowl):
-        # Its pieces have corners enough for a hull, but not the faces of one.
-        path = folder / "bowl_surface.obj"
+    if isinstance(shape, Bowl | Cylinder):
+        # A bowl's pieces have corners for a hull, not its faces; PyBullet draws a cylinder as a capsule.
+        path = folder / "turned_surface.obj"
         path.write_text(_turned(_profile(shape)), encoding="ascii")
         surface = client.createVisualShape(client.GEOM_MESH, fileName=str(path), rgbaColor=color)
         return int(client.createMultiBody(0, -1, surface))
@@ -46,8 +46,12 @@ def create(shape: Shape, client: Client, folder: Path, color: Color) -> int:
     return body
 
 
-def _profile(bowl: Bowl) -> list[tuple[float, float]]:
-    """Radii and heights around the cut of a bowl, from the middle of its foot over the rim to its floor."""
+def _profile(shape: Bowl | Cylinder) -> list[tuple[float, float]]:
+    """Radii and heights around half of the cut, from the middle of the foot to the top or a bowl's floor."""
+    if isinstance(shape, Cylinder):
+        radius, half = shape.radius, shape.height / 2
+        return [(0, -half), (radius, -half), (radius, half), (0, half)]
+    bowl = shape
     low, high, floor = -bowl.height / 2, bowl.height / 2, bowl.wall - bowl.height / 2
     foot, rim, wall = bowl.foot_radius, bowl.rim_radius, bowl.wall
     return [(0, low), (foot, low), (rim, high), (rim - wall, high), (foot - wall, floor), (0, floor)]

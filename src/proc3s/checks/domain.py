@@ -57,8 +57,8 @@ class Checked:
     seconds: float
 
 
-RAISED_WHY = "an error in the domain's code ends a run"
-RAISED_MEND = "correct the line that is named"
+RAISED_WHY = "what the domain's code raises ends the run, or the check, that meets it"
+RAISED_MEND = "correct what is named"
 CHECKS: tuple[Check, ...] = (
     Check(
         "targets",
@@ -192,12 +192,19 @@ def _key(fault: Fault) -> str:
     return f"{fault.where} {kind[1]}" if kind else f"{fault.where} {fault.text}"
 
 
+def _where(place: str, subject: Subject) -> str:
+    """A file with its line; where that is not known, the domain's file, and the part of it."""
+    if not place or ":" in place:
+        return place or subject.file
+    return f"{subject.file}, {place}"
+
+
 def _finding(check: Check, fault: Fault, subject: Subject) -> CheckFinding:
     return CheckFinding(
         level="error" if fault.error else "note",
         check=check.name,
         text=fault.text,
-        where=located(fault.where) or subject.file,
+        where=_where(located(fault.where), subject),
         why=fault.why or check.why,
         mend=fault.mend or check.mend,
     )

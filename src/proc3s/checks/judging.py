@@ -29,7 +29,12 @@ def judges(subject: Subject) -> Iterator[Fault]:
     """The judge of a task is not satisfied by the untouched scene."""
     for name, task in subject.spec.tasks.items():
         if not task.judge:
-            yield Fault(f"the task {name} has no judge", error=False)
+            yield Fault(
+                f"the task {name} has no judge",
+                why="its runs end without a verdict on the goal",
+                mend="give it a judge, unless people are to say what is right",
+                error=False,
+            )
             continue
         for seed in range(SEEDS):
             problem = subject.problem(name, seed)
@@ -146,7 +151,7 @@ def _told(problem: Problem, attempt: Attempt, unchecked: Plan | None) -> str:
         return f"{text} (the commonest failure, after {drawn})" if attempt.samples else text
     execution = execute(problem, plan, "solution", (0, 0), None, _nobody)
     if unchecked and execution.violations:
-        return execution.violations[0].text
+        return f"its plan breaks a rule: {execution.violations[0].text}"
     if execution.score is None or execution.score.reached:
         return ""
     return f"{execution.reason} (its plan after {drawn})"

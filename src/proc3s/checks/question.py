@@ -1,6 +1,7 @@
 """One small question to the chosen LLM, asked as a run asks: what works, and what it cost."""
 
 import reprlib
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
@@ -13,8 +14,11 @@ from proc3s.llm.types import Completion, Message, Request, Sampling
 from proc3s.planning.llm_backend import find_llm, open_llm
 from proc3s.plugins.registry import Registry
 from proc3s.redaction import redacted
+from proc3s.sandbox.text import clean
 from proc3s.wording import count, plain
 
+_MODEL = 200
+"""Characters of a model's name that are shown."""
 _PROMPT = (
     Message(role="system", kind="system", text="Answer with one word and nothing else."),
     Message(role="user", kind="task", text="Say: ready"),
@@ -81,14 +85,16 @@ def _not_live(name: str) -> Finding:
 
 
 def _attempts(meter: _Meter) -> Iterator[Finding]:
-    for error in meter.failures:
-        yield _question("note", f"an attempt failed, and another one followed: {redacted(str(error))}")
+    for text, times in Counter(redacted(str(error)) for error in meter.failures).items():
+        failed = "an attempt" if times == 1 else f"{times} attempts"
+        yield _question("note", f"{failed} failed, and another one followed: {text}")
 
 
 def _answer(completion: Completion) -> Iterator[Finding]:
     said = reprlib.repr(redacted(completion.text.strip()))  # no control character reaches a terminal
     asked = completion.model_asked or completion.model
-    also = "" if asked.endswith(completion.model) else f" (it calls itself {completion.model})"
+    model = clean(completion.model, _MODEL)  # as the server has it
+    also = "" if asked.endswith(completion.model) else f" (it calls itself {model})"
     after = "" if completion.latency is None else f" after {completion.latency:.1f} s"
     yield _question("ok", f"{asked}{also} answered {said}{after}")
     for note in completion.notes:
@@ -102,7 +108,7 @@ def _parameters(asked: Sampling, completion: Completion) -> Iterator[Finding]:
         listed = ", ".join(f"{name}={value}" for name, value in sent.items())
         yield Finding(level="ok", subject="parameters", text=f"{listed} taken")
     for name in completion.dropped:
-        text = f"{completion.model} does not support {name}: runs go without it"
+        text = f"{clean(completion.model, _MODEL)} does not support {name}: runs go without it"
         yield Finding(level="note", subject="parameters", text=text)
 
 

@@ -160,5 +160,5 @@ def _plain(name: str, value: Any) -> Any:
     if get_origin(kind) is dict:
         return key_values(value) if isinstance(value, list) else {k: str(v) for k, v in value.items()}
     if kind == Path | None:
-        return Path(value).resolve()
-    return [path.resolve() for path in value] if name == "plugins" else value
+        return Path(value).absolute()
+    return [path.absolute() for path in value] if name == "plugins" else value

@@ -12,7 +12,7 @@ from proc3s.domain.world import draws, make_world
 from proc3s.errors import Proc3sError, blame
 from proc3s.planning.attempts import Attempt, furthest
 from proc3s.reporting.caption import write_below
-from proc3s.runs.events import Emit, Unwritten
+from proc3s.runs.events import Emit, Undrawn, Unwritten
 from proc3s.runs.folder import NEAREST_MISS, SCENE
 from proc3s.search.problem import Problem
 from proc3s.search.rollout import carry_out
@@ -49,9 +49,11 @@ def told_if_missing(picture: Path, emit: Emit) -> Iterator[None]:
         with blame("world"):
             yield
     except Proc3sError as error:
-        cause = error.__cause__
-        reason = cause.strerror if isinstance(cause, OSError) and cause.strerror else error
-        emit(Unwritten(text=f"the picture {picture} is missing: {reason}"))
+        cause, missing = error.__cause__, f"the picture {picture} is missing"
+        if isinstance(cause, OSError) and cause.strerror:
+            emit(Unwritten(text=f"{missing}: {cause.strerror}"))
+        else:
+            emit(Undrawn(text=f"{missing}: {error}"))
 
 
 def draw_unsolved(problem: Problem, miss: Miss | None, folder: Path, emit: Emit) -> None:

@@ -2,6 +2,7 @@
 
 import importlib.metadata
 import importlib.util
+import re
 import sys
 import tomllib
 from collections.abc import Callable, Iterator, Mapping
@@ -21,6 +22,7 @@ from proc3s.textfiles import read_text
 DOMAIN_FILE = "domain.yaml"
 _PROJECT = "pyproject.toml"
 _PACKAGE = "__init__.py"
+_ENTRY = re.compile(r"[\w.]+(:[\w.]+)?")
 
 
 @dataclass(frozen=True)
@@ -93,6 +95,8 @@ def _entry_points(folder: Path) -> Iterator[importlib.metadata.EntryPoint]:
     for key in ("project", "entry-points", GROUP):
         data = data.get(key) if isinstance(data, Mapping) else None
     for name, value in data.items() if isinstance(data, Mapping) else ():
+        if not _ENTRY.fullmatch(str(value)):
+            raise UsageError(f"{path}: the entry point {name} = {str(value)!r} names no module")
         yield importlib.metadata.EntryPoint(name, str(value), GROUP)
 
 
@@ -103,8 +107,18 @@ def _load_entry(folder: Path, entry: importlib.metadata.EntryPoint) -> object:
         if (root / module / _PACKAGE).is_file() or (root / f"{module}.py").is_file():
             _append(root)
             _require_in(root, module)
-            return entry.load()
+            return _named(entry, folder / _PROJECT)
     raise UsageError(f"{folder / _PROJECT} names the package {module}, which is neither here nor in src/")
+
+
+def _named(entry: importlib.metadata.EntryPoint, file: Path) -> object:
+    """The module that an entry point names, or what is named in it."""
+    found: object = importlib.import_module(entry.module)
+    for name in entry.attr.split(".") if entry.attr else ():
+        if not hasattr(found, name):
+            raise UsageError(f"{file}: {entry.value} is not there: {entry.module} has no {entry.attr!r}")
+        found = getattr(found, name)
+    return found
 
 
 def _load_package(folder: Path) -> object:

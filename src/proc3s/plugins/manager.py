@@ -49,7 +49,7 @@ class PluginManager:
             self._load(PluginStatus(entry_point.name, source, version), entry_point.load)
         loose = Path.cwd() / LOOSE_FILE
         found = [*([loose] if loose.is_file() else []), *files]
-        for path in {path.resolve(): path for path in found}.values():
+        for path in {_itself(path): path for path in found}.values():
             for plugin in loose_plugins(path):
                 self._load(PluginStatus(plugin.name, str(path)), plugin.load)
         for number, one in enumerate(given):
@@ -196,6 +196,14 @@ def _known(spec: Spec, registered: Mapping[str, list[tuple[str, Spec]]]) -> bool
         return False
     domains = [one for _, one in registered.get(DomainSpec.kind, []) if isinstance(one, DomainSpec)]
     return any(one.name == spec.name and one.folder and one.folder.samefile(spec.folder) for one in domains)
+
+
+def _itself(path: Path) -> Path:
+    """The path without links, so that one file is loaded once; links in a circle lead nowhere."""
+    try:
+        return path.resolve()
+    except RuntimeError:
+        return path.absolute()
 
 
 def _given(plugin: object) -> object:

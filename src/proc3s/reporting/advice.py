@@ -38,7 +38,7 @@ def of_program(program: ProgramRecord, story: Story) -> tuple[Pointer, ...]:
     if always:
         if not numbers:
             found.append(Pointer(kind="always", facts=always.model_dump()))
-    elif _hopeful(diagnosis, story):
+    elif program is story.programs[-1] and _hopeful(diagnosis, story):  # the one that replay takes
         found.append(Pointer(kind="more_samples", facts={"samples": _HOPEFUL * diagnosis.samples}))
     if any(report.constraint == "goal" for report in diagnosis.constraints):
         found.append(Pointer(kind="goal", facts={}))

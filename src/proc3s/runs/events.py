@@ -264,6 +264,14 @@ class Unwritten(Event):
     """What, where and why."""
 
 
+class Undrawn(Event):
+    """A picture that the world could not draw; the run is as good without it."""
+
+    event: Literal["undrawn"] = "undrawn"
+    text: str
+    """Which picture, and why."""
+
+
 class RunEnded(Event):
     """The end of a run with its summary."""
 

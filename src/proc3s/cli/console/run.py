@@ -25,6 +25,7 @@ from proc3s.runs.events import (
     PromptRendered,
     RoundEnded,
     SketchLoaded,
+    Undrawn,
     Warned,
 )
 from proc3s.runs.folder import NEAREST_MISS
@@ -75,6 +76,8 @@ class Console:
             self.say(f"round {event.round}: asking {self._options.llm} ({size} characters)")
         elif isinstance(event, CallFailed):
             self.say(f"round {event.round}: {event.message}; trying again in {event.wait:.1f} s")
+        elif isinstance(event, Undrawn):
+            self.say(event.text)
         elif isinstance(event, Warned):
             self.say(f"round {event.round}: {event.text}")
         elif isinstance(event, AnswerReceived):

@@ -13,6 +13,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
 from rich.table import Table as RichTable
 
 from proc3s.cli.console.tables import print_table
+from proc3s.sandbox.text import clean
 from proc3s.specs.suite import Cell, SuiteSpec
 from proc3s.suites.episode import Episode
 from proc3s.suites.outcomes import Unfinished
@@ -20,6 +21,9 @@ from proc3s.suites.results import Result
 from proc3s.suites.runner import EpisodeOutcome
 from proc3s.suites.tables import SuiteTable
 from proc3s.wording import count
+
+_LINE = 1000
+"""Characters of a line about an episode, which may repeat what foreign code raised."""
 
 FREE = f"{0:.4f}"
 """What is spent where nothing costs money; that is not said."""
@@ -68,7 +72,7 @@ class SuiteConsole:
         if not self._live or not _well(outcome):
             line = f"[{settled}/{self._total}] {self._called(outcome.cell)}: {_word(outcome)}"
             line += f" ({state})" if state else ""
-            self._err.print(line, soft_wrap=not self._live, markup=False)
+            self._err.print(clean(line, _LINE), soft_wrap=not self._live, markup=False)
 
     def _called(self, cell: Cell) -> str:
         preset = f" ({cell.preset})" if len(self._spec.presets) > 1 else ""

@@ -30,6 +30,8 @@ def check(registry: Registry, folder: Path, within: str | None, update: bool, gi
     template with the feedback on typical failures: `domain/feedback/TEMPLATE.md`. Raises UsageError if a
     file cannot be read or written.
     """
+    if not update and not folder.is_dir():
+        raise UsageError(f"there is no folder {folder}; --update makes it, and approves what is rendered now")
     rendered = dict(_all_renderings(registry, within, given))
     try:
         stale = {name: text for name, text in rendered.items() if not _approved(folder / name, text)}
@@ -52,7 +54,7 @@ def _approve(folder: Path, stale: Mapping[str, str], orphans: list[Path]) -> Non
 
 def _report(folder: Path, stale: Mapping[str, str], orphans: list[Path]) -> None:
     for name, text in stale.items():
-        difference = unified_diff(_read(folder / name) or "", text, f"approved/{name}", f"now/{name}")
+        difference = unified_diff(_read(folder / name) or "", text, str(folder / name), f"now/{name}")
         typer.echo("".join(difference), nl=False)
     for path in orphans:
         typer.echo(f"approved, but no longer rendered: {path}")

@@ -178,11 +178,11 @@ def _arguments(wanted: SuiteWanted) -> Iterator[str]:
     if wanted.check_goal is not None:
         yield "--check-goal" if wanted.check_goal else "--no-check-goal"
     if wanted.record is not None:
-        yield from ("--record", str(wanted.record.resolve()))
+        yield from ("--record", str(wanted.record.absolute()))
     if wanted.template_dir is not None:
-        yield from ("--template-dir", str(wanted.template_dir.resolve()))
+        yield from ("--template-dir", str(wanted.template_dir.absolute()))
     for path in wanted.plugins:
-        yield from ("--plugin", str(path.resolve()))
+        yield from ("--plugin", str(path.absolute()))
 
 
 def _limits(given: Mapping[str, str]) -> Iterator[str]:

@@ -23,7 +23,10 @@ from proc3s.plugins.registry import Registry
 from proc3s.prompts.conversation import Exchange
 from proc3s.runs.folder import markdown
 from proc3s.runs.reading import LOG, events_of, read_events, started
-from proc3s.textfiles import read_text
+from proc3s.textfiles import decoded
+
+_LARGEST = 10_000_000
+"""Bytes of a rendering; what is longer is none, a device without an end say."""
 
 
 def require_one_source(round_: int | None, run: Path | None, failure: str | None) -> None:
@@ -107,7 +110,11 @@ def _earlier(path: Path, format_: str, round_: int) -> str:
     if path.is_dir():
         return formatted(_prompt_of(path, round_), format_)
     try:
-        return read_text(path)
+        with path.open("rb") as file:
+            data = file.read(_LARGEST + 1)
+        if len(data) > _LARGEST:
+            raise UsageError(f"{path} is no rendering of a prompt: it has more than {_LARGEST:,} bytes")
+        return decoded(data)
     except FileNotFoundError as error:
         raise UsageError(f"there is no rendering or run {path}") from error
     except UnicodeDecodeError as error:
