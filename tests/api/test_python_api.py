@@ -295,6 +295,7 @@ print(result.solved, [action.to_json() for action in result.plan])
 """
 
 
+@pytest.mark.slow
 def test_a_script_without_a_main_guard_works_with_two_jobs(here):
     (here / "script.py").write_text(SCRIPT)
     done = subprocess.run([sys.executable, "script.py"], capture_output=True, text=True, timeout=120)

@@ -159,6 +159,7 @@ def test_unknown_names_are_one_line(cli, here, args, message):
     assert not list(here.iterdir())
 
 
+@pytest.mark.slow
 def test_control_c_keeps_what_is_done(background, here):
     with background(
         "bench", "ccsp", "--tasks", "drawing/star.open", "--seeds", 10_000, "--out", "b"

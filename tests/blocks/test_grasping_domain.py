@@ -56,6 +56,7 @@ def test_grasps_are_drawn_until_one_holds(cans, cli):
     assert len(place["args"][2]) == 6
 
 
+@pytest.mark.slow
 def test_perturbed_grasps_of_a_pick_and_its_place_stay_one(cans, cli, stub):
     llm = stub(f"```python\n{PROGRAM}\n```")
     options = ("--method", "cap-gaussian", "--llm", llm, "--samples", "50", "--out", "run")

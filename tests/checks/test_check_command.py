@@ -37,7 +37,7 @@ def replaced(path, old, new):
 def test_a_sound_domain_is_fine_in_every_way(push, cli):
     result = cli("check", push)
     assert (result.code, "push: 0 errors, 0 notes" in result.stdout) == (0, True), result.stdout
-    assert result.stdout.count("fine ") == 12
+    assert result.stdout.count("fine ") == 13
     assert cli("check", push / "domain.yaml", "--json").json == {
         "domain": "push",
         "errors": 0,
@@ -121,7 +121,7 @@ def never(state, batch):
 
 def _marked(case):
     """A check of everything takes seconds, twice; a few show that it works."""
-    return pytest.param(case, marks=[] if case in ("targets", "judges") else [pytest.mark.slow])
+    return pytest.param(case, marks=[] if case == "targets" else [pytest.mark.slow])
 
 
 @pytest.mark.parametrize("check", [_marked(case) for case in BROKEN])
@@ -253,6 +253,7 @@ def test_the_command_for_an_example_is_none(push, cli):
     assert "proc3s solve" not in found["mend"]
 
 
+@pytest.mark.slow
 def test_a_skill_nobody_uses_is_a_note(push, cli):
     replaced(
         push / "domain.yaml",

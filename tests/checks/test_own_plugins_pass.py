@@ -16,6 +16,7 @@ from proc3s.testing.samplers import SamplerTests
 needs_tabletop = pytest.mark.skipif(find_spec("pybullet") is None, reason="needs the extra `tabletop`")
 
 
+@pytest.mark.slow
 class TestDrawing(DomainTests):
     @pytest.fixture
     def domain_name(self):
@@ -79,6 +80,7 @@ class TestGrasp(SamplerTests):
         return GraspSampler()
 
 
+@pytest.mark.slow
 class TestSerial(ExecutorTests):
     @pytest.fixture
     def domain_name(self):
@@ -89,6 +91,7 @@ class TestSerial(ExecutorTests):
         return lambda: open_registry().get(ExecutorSpec, "serial").load()(jobs=1)
 
 
+@pytest.mark.slow
 class TestProcesses(ExecutorTests):
     @pytest.fixture
     def domain_name(self):

@@ -168,3 +168,11 @@ def test_a_folder_that_is_not_there(cli):
     assert result.code == 2
     assert "no template folder" in result.stderr
     assert "proc3s new templates" in result.stderr
+
+
+def test_links_in_a_circle_lead_nowhere(cli, here):
+    (here / "one").symlink_to(here / "other")
+    (here / "other").symlink_to(here / "one")
+    for args in (["--template-dir", "one"], ["--plugin", "one"]):
+        done = cli("render-prompt", "drawing/star", *args)
+        assert (done.code, "one" in done.stderr, "Traceback" in done.stderr) == (2, True, False), done.stderr

@@ -335,3 +335,15 @@ def test_what_a_plugin_adds_to_the_prompt(cli, here):
 def test_rendering_writes_nothing(cli, here):
     cli("render-prompt", "drawing/star")
     assert list(here.iterdir()) == []
+
+
+def test_a_device_without_an_end_is_no_rendering(cli):
+    done = cli("render-prompt", "drawing/star", "--diff", "/dev/zero")
+    assert (done.code, done.stdout) == (2, "")
+    assert "/dev/zero is no rendering of a prompt: it has more than 10,000,000 bytes" in done.stderr
+
+
+def test_a_folder_of_approved_prompts_must_be_there(cli, here):
+    done = cli("render-prompt", "drawing", "--check", "prompts")
+    assert (done.code, done.stdout) == (2, "")
+    assert "there is no folder prompts; --update makes it" in done.stderr

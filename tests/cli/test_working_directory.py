@@ -40,6 +40,7 @@ def command(here):
     return run
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "args",
     [

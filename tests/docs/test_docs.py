@@ -71,6 +71,7 @@ def check_console(body: str, expected_exit: int, folder: Path) -> None:
 
 SLOW = (
     "benchmark",
+    "first-plan",
     "llm",
     "look-at-a-run",
     "own-domain",

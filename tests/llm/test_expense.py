@@ -91,6 +91,7 @@ def test_answers_that_cost_nothing_are_not_announced(cli):
     assert "at most" not in cli("run", "drawing/star").stderr
 
 
+@pytest.mark.slow
 def test_a_suite_says_it_before_its_first_episode(cli, here, counting):
     suite = {"name": "m", "summary": "m", "tasks": ["drawing/star"], "methods": ["proc3s", "cap"]}
     (here / "mine.yaml").write_text(json.dumps({**suite, "seeds": 2, "feedback": 0}))

@@ -124,6 +124,17 @@ def test_a_domain_of_loose_modules(crates, cli, here):
             ),
             "names the package nothing_there, which is neither here nor in src/",
         ),
+        (
+            lambda folder: (folder / "pyproject.toml").write_text('[project.entry-points.proc3s]\na = ""'),
+            "pyproject.toml: the entry point a = '' names no module",
+        ),
+        (
+            lambda folder: (
+                (folder / "some.py").touch(),
+                (folder / "pyproject.toml").write_text('[project.entry-points.proc3s]\na = "some:nope"'),
+            ),
+            "pyproject.toml: some:nope is not there: some has no 'nope'",
+        ),
         (lambda folder: (folder / "inner").mkdir() or (folder / "inner/domain.yaml").touch(), "did you mean"),
     ],
 )

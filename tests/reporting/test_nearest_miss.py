@@ -104,6 +104,22 @@ def test_a_world_that_draws_nothing_is_not_asked_to(walk, cli, here):
     )
 
 
+def test_a_picture_that_cannot_be_drawn_changes_no_outcome(unsolved, cli, monkeypatch):
+    def broken(*args):
+        raise ValueError("no pen")
+
+    monkeypatch.setattr(Canvas, "render", broken)
+    monkeypatch.setattr(Canvas, "render_marked", broken)
+    solved = cli("run", "drawing/star", "--json")
+    assert (solved.code, solved.json["solved"], solved.json["error"]) == (0, True, None)
+    done = unsolved()
+    assert done.code == 1
+    assert done.stdout.startswith("unsolved ")
+    assert "the picture run/nearest_miss.png is missing" in done.stderr
+    assert "raised ValueError: no pen" in done.stderr
+    assert "broken off" not in cli("explain", "run").stdout
+
+
 def test_a_world_that_knows_no_marks_draws_as_it_always_did(here):
     class Older(World):
         def render(self, plan, path):

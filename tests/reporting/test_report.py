@@ -91,6 +91,7 @@ def test_every_beginning_of_a_log_has_a_page(two_rounds):
         assert "broken off, or still at work" in page(read_story(two_rounds), folders)
 
 
+@pytest.mark.slow
 def test_pages_of_other_runs(cli, stub, failing, here, two_rounds, rewrite):
     rewrite(two_rounds, lambda event: {k: v for k, v in event.items() if k not in ("dims", "log")})
     (two_rounds / "plan.png").unlink()

@@ -140,6 +140,7 @@ def test_a_provider_that_fails_is_asked_again_later(cli, suite, here):
     assert len(Store(here / "out").episodes()) == 3
 
 
+@pytest.mark.slow
 def test_an_episode_that_ended_as_the_suite_was_killed_is_taken_as_it_is(cli, suite, here):
     assert cli("bench", suite(seeds=1), "--out", "out").code == 0
     (kept,) = Store(here / "out").episodes()
@@ -194,6 +195,7 @@ def test_a_mistake_in_a_suite_names_its_line(cli, here):
     assert "mine.yaml:4: method: unknown key 'method'; did you mean 'methods'?" in said
 
 
+@pytest.mark.slow
 def test_results_are_not_begun_twice(cli, suite):
     name = suite(seeds=1)
     assert cli("bench", name, "--out", "out").code == 0

@@ -292,6 +292,7 @@ def test_a_card_leads_to_the_report_of_its_run_and_none_leads_nowhere(cli, here)
     assert (folder / run / "report.html").stat().st_mtime_ns == written
 
 
+@pytest.mark.slow
 def test_a_person_overrules_the_judge(folder, cli):
     from typer.testing import CliRunner
 

@@ -129,6 +129,7 @@ def test_an_episode_that_cannot_be_carried_out_is_tried_again_and_in_no_rate(ben
     assert done.json["unfinished"] == left(here / "out") == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("what", "words"),
     [("deadly", "ended by signal SIGKILL; was there memory enough?"), ("blind", "the judge cannot see")],
@@ -142,6 +143,7 @@ def test_a_process_that_is_killed_and_a_judge_that_raises_are_no_failures(bench,
     assert bench("--resume", "out").code == 0
 
 
+@pytest.mark.slow
 def test_the_same_error_again_and_again_ends_the_suite(bench, here):
     (here / "blind").touch()
     result = bench("--out", "out", seeds=40)
@@ -151,6 +153,7 @@ def test_the_same_error_again_and_again_ends_the_suite(bench, here):
     assert len(left(here / "out")) == ALIKE
 
 
+@pytest.mark.slow
 def test_a_limit_of_the_clock_leaves_an_episode_to_go_on_with(bench, here):
     result = bench("--out", "out", "--limit", "round=0.0001")
     assert (result.code, "out of time" in result.stderr) == (1, True), result.stderr

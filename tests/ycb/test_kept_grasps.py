@@ -156,6 +156,7 @@ def test_a_verdict_does_not_depend_on_the_batch():
     assert together == alone
 
 
+@pytest.mark.slow
 def test_a_second_pick_of_an_object_is_left_to_the_world():
     bad = np.array([0.0, 0.07, 0.005, 0.0, np.pi, 0.0])
     one = batch_of("object_1", bad[None])

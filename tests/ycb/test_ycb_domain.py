@@ -138,6 +138,7 @@ def test_a_check_finds_nothing_wrong_and_says_how_true_the_bodies_are(cli):
     assert max(off.values()) < 2.0
 
 
+@pytest.mark.slow
 def test_two_objects_are_stacked_from_end_to_end(run):
     summary = run("stacking", 0)
     assert (summary["solved"], summary["goal_reached"]) == (True, True), summary
