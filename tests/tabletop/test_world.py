@@ -5,8 +5,11 @@ import numpy as np
 import pytest
 
 from proc3s import Action, Pose, SpecError, State
+from proc3s_tabletop.bullet.scene import Scene
+from proc3s_tabletop.catalogue.body_specs import bodies_of
 from proc3s_tabletop.objects.body import Body
 from proc3s_tabletop.objects.shapes import Mesh, Surface
+from proc3s_tabletop.robot.settings import ReferenceSettings
 from proc3s_tabletop.skills import pick, place
 from proc3s_tabletop.world import ReferenceWorld
 
@@ -103,3 +106,18 @@ def test_pieces_that_are_far_from_their_mesh_come_with_advice():
         told = {text: "`concavity`" in advice for text, advice in world.coarse().items()}
         coarse = {"plate is 5.6 mm off its 1 convex piece": True}
         assert told == (coarse if name == "plate" else {})
+
+
+def test_bowls_of_two_sizes_are_two_shapes():
+    small = {"shape": "bowl", "mass": 0.2, "rim_radius": 0.05, "foot_radius": 0.03, "height": 0.03}
+    bodies = bodies_of({"large": {"shape": "bowl", "mass": 0.3}, "small": small})
+    scene = Scene(bodies, ReferenceSettings())
+    try:
+        wide = {}
+        for name, body in bodies.items():
+            low, high = scene.client.getAABB(scene.bodies[name])
+            wide[name] = (high[0] - low[0]) / 2
+            assert wide[name] == pytest.approx(body.shape.rim_radius, abs=0.003)
+        assert wide["small"] < wide["large"]
+    finally:
+        scene.close()

@@ -1,6 +1,7 @@
 """Shapes as PyBullet takes them: one collision shape for every kind of body."""
 
 import functools
+import hashlib
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -43,18 +44,24 @@ def _(shape: Cylinder, client: Client, folder: Path) -> int:
 
 @collision_shape.register
 def _(shape: Bowl, client: Client, folder: Path) -> int:
-    return compound(shape.parts(), client, folder / "bowl.obj")
+    return compound(shape.parts(), client, folder)
 
 
 @collision_shape.register
 def _(shape: Mesh, client: Client, folder: Path) -> int:
-    return compound(shape.pieces, client, folder / f"{shape.key[:16]}.obj")
+    return compound(shape.pieces, client, folder)
 
 
-def compound(pieces: Sequence[FloatArray], client: Client, path: Path) -> int:
-    """The PyBullet id of the hulls of corners (n, 3); `path` is where the file goes that it reads from."""
-    path.write_text(_obj(pieces), encoding="ascii")
-    return int(client.createCollisionShape(client.GEOM_MESH, fileName=str(path)))
+def compound(pieces: Sequence[FloatArray], client: Client, folder: Path) -> int:
+    """The PyBullet id of the hulls of corners (n, 3); the file that it is read from goes to `folder`."""
+    return int(client.createCollisionShape(client.GEOM_MESH, fileName=str(written(_obj(pieces), folder))))
+
+
+def written(text: str, folder: Path) -> Path:
+    """A file for PyBullet, named by its content: whatever the file holds, a name is read only once."""
+    path = folder / f"{hashlib.sha256(text.encode()).hexdigest()[:16]}.obj"
+    path.write_text(text, encoding="ascii")
+    return path
 
 
 def _obj(pieces: Sequence[FloatArray]) -> str:

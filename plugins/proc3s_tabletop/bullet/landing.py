@@ -25,7 +25,7 @@ def landed(pieces: Sequence[FloatArray], turn: FloatArray) -> FloatArray:
         slab = client.createCollisionShape(client.GEOM_BOX, halfExtents=[2.0, 2.0, 0.05])
         table = client.createMultiBody(0, slab, -1, [0, 0, -0.05])
         with TemporaryDirectory() as folder:
-            shape = compound(turned, client, Path(folder) / "body.obj")
+            shape = compound(turned, client, Path(folder))
         height = MARGIN + DROP - min(float(piece[:, 2].min()) for piece in turned)
         body = client.createMultiBody(0.2, shape, -1, [0, 0, height])
         client.changeDynamics(table, -1, lateralFriction=0.8)

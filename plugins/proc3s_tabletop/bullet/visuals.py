@@ -9,7 +9,7 @@ import numpy as np
 
 from proc3s import FloatArray
 from proc3s_tabletop.bullet.client import Client
-from proc3s_tabletop.bullet.collision_shapes import collision_shape
+from proc3s_tabletop.bullet.collision_shapes import collision_shape, written
 from proc3s_tabletop.objects.shapes import Bowl, Cylinder, Mesh, Shape, Surface
 
 Color: TypeAlias = tuple[float, float, float, float]
@@ -32,13 +32,11 @@ def create(shape: Shape, client: Client, folder: Path, color: Color) -> int:
     """The PyBullet id of a body that is only to be looked at; files that it is read from go to `folder`."""
     if isinstance(shape, Bowl | Cylinder):
         # A bowl's pieces have corners for a hull, not its faces; PyBullet draws a cylinder as a capsule.
-        path = folder / "turned_surface.obj"
-        path.write_text(_turned(_profile(shape)), encoding="ascii")
+        path = written(_turned(_profile(shape)), folder)
         surface = client.createVisualShape(client.GEOM_MESH, fileName=str(path), rgbaColor=color)
         return int(client.createMultiBody(0, -1, surface))
     if isinstance(shape, Mesh):
-        path = folder / f"{shape.key[:16]}_surface.obj"
-        path.write_text(_obj(shape.surface), encoding="ascii")
+        path = written(_obj(shape.surface), folder)
         surface = client.createVisualShape(client.GEOM_MESH, fileName=str(path), rgbaColor=color)
         return int(client.createMultiBody(0, -1, surface))
     body = int(client.createMultiBody(0, collision_shape(shape, client, folder), -1))
