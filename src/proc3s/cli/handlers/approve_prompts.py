@@ -30,9 +30,9 @@ def check(registry: Registry, folder: Path, within: str | None, update: bool, gi
     template with the feedback on typical failures: `domain/feedback/TEMPLATE.md`. Raises UsageError if a
     file cannot be read or written.
     """
+    rendered = dict(_all_renderings(registry, within, given))
     if not update and not folder.is_dir():
         raise UsageError(f"there is no folder {folder}; --update makes it, and approves what is rendered now")
-    rendered = dict(_all_renderings(registry, within, given))
     try:
         stale = {name: text for name, text in rendered.items() if not _approved(folder / name, text)}
         orphans = [] if within or "method" in given else list(_orphans(registry, folder, rendered))
