@@ -167,14 +167,14 @@ class TabletopWorld(World[Telemetry]):
     def facts(self) -> list[str]:
         """How far convex pieces are from their mesh: the 95th percentile of the surfaces' distance."""
         return [
-            f"{name}: {count(len(mesh.pieces), 'convex piece')}, {1e3 * mesh.error:.1f} mm off the mesh"
+            f"{name}: {_pieces(mesh)}, {1e3 * mesh.error:.1f} mm off the mesh"
             for name, mesh in self._meshes().items()
         ]
 
     def coarse(self) -> dict[str, str]:
         """Bodies whose pieces are more than 3 mm off their mesh, and what makes them finer."""
         return {
-            f"{name} is {1e3 * mesh.error:.1f} mm off its {count(len(mesh.pieces), 'convex piece')}": FINER
+            f"{name} is {1e3 * mesh.error:.1f} mm off its {_pieces(mesh)}": FINER
             for name, mesh in self._meshes().items()
             if mesh.error > COARSE
         }
@@ -188,6 +188,10 @@ class TabletopWorld(World[Telemetry]):
         if self._table:
             self._table.close()
             self._table = None
+
+
+def _pieces(mesh: Mesh) -> str:
+    return count(len(mesh.pieces), "convex piece")
 
 
 class ExecutionWorld(TabletopWorld):

@@ -28,7 +28,7 @@ def panels(text):
         ("run", ["Arguments", "LLM", "Search", "World", "Output"]),
         ("solve", ["Arguments", "Search", "World", "Output"]),
         ("render-prompt", ["Arguments", "Search", "LLM", "World", "Output"]),
-        ("replay", ["Arguments", "Search", "Output"]),
+        ("replay", ["Arguments", "Search", "World", "Output"]),
         ("bench", ["Arguments", "Episodes", "LLM", "Search", "World", "Output"]),
         ("bench ccsp", ["Episodes", "Search", "World", "Output"]),
         ("bench execution", ["Episodes", "Search", "World", "Output"]),

@@ -73,7 +73,7 @@ def piped(here):
         ("list >/dev/full", 2),
         ("list --json >/dev/full", 2),
         ("list | true", 141),
-        ("render-prompt drawing --check approved | true", 141),
+        ("render-prompt drawing --check . | true", 141),
         ("run drawing/star --llm replay 2> >(true)", 0),
     ],
 )
