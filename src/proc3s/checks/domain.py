@@ -4,6 +4,7 @@ import re
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TypeAlias
 
 from pydantic import BaseModel, ConfigDict
@@ -194,9 +195,9 @@ def _key(fault: Fault) -> str:
 
 def _where(place: str, subject: Subject) -> str:
     """A file with its line; where that is not known, the domain's file, and the part of it."""
-    if not place or ":" in place:
-        return place or subject.file
-    return f"{subject.file}, {place}"
+    if re.search(r":\d+$", place) or Path(place).is_file():
+        return place
+    return f"{place} in {subject.file}" if place else subject.file
 
 
 def _finding(check: Check, fault: Fault, subject: Subject) -> CheckFinding:

@@ -63,21 +63,19 @@ def refusals(subject: Subject) -> Iterator[Fault]:
 
 def deterministic(subject: Subject) -> Iterator[Fault]:
     """A plan gets the same trial in a used world, a fresh one, and in several workers."""
+    used: list[str] = []
+    apart: list[str] = []
     for answer, plans in _by_answer(subject):
         alone = [_fresh(subject, answer, plan) for plan in plans]
-        world = make_world(subject.domain)
-        try:
-            for plan in reversed(plans):
-                carry_out(world, answer.problem, plan)
-            used = [carry_out(world, answer.problem, plan) for plan in plans]
-        finally:
-            world.close()
-        if not same(alone, used):
-            yield Fault(
-                f"plans of {answer.name} end otherwise in a world that was used before", _world(subject)
-            )
-        if not same([trial for trial, _ in alone], _elsewhere(subject, answer, plans)):
-            yield Fault(f"plans of {answer.name} get other verdicts from two workers", _world(subject))
+        if not same(alone, _used(subject, answer, plans)):
+            used.append(answer.name)
+        elif not same([trial for trial, _ in alone], _elsewhere(subject, answer, plans)):
+            apart.append(answer.name)
+    if used:
+        text = f"plans of {', '.join(used)} end otherwise in a world that was used before"
+        yield Fault(text, _world(subject))
+    elif apart:
+        yield Fault(f"plans of {', '.join(apart)} get other verdicts from two workers", _world(subject))
 
 
 def _by_answer(subject: Subject) -> Iterator[tuple[BundledAnswer, list[Plan]]]:
@@ -87,6 +85,17 @@ def _by_answer(subject: Subject) -> Iterator[tuple[BundledAnswer, list[Plan]]]:
     for answer, batch in first.values():
         good = [i for i in range(len(batch)) if i not in batch.errors][:FEW]
         yield answer, [batch.plan(i) for i in good]
+
+
+def _used(subject: Subject, answer: BundledAnswer, plans: Sequence[Plan]) -> list[tuple[Trial, Any]]:
+    """The trials in one world, after others."""
+    world = make_world(subject.domain)
+    try:
+        for plan in reversed(plans):
+            carry_out(world, answer.problem, plan)
+        return [carry_out(world, answer.problem, plan) for plan in plans]
+    finally:
+        world.close()
 
 
 def _fresh(subject: Subject, answer: BundledAnswer, plan: Plan) -> tuple[Trial, Any]:
@@ -174,10 +183,14 @@ def screens(subject: Subject) -> Iterator[Fault]:
     end = subject.deadline()
     if subject.domain.screens:
         subject.require_plans()
+    wrong: set[str] = set()
     for answer, batch in subject.batches:
         for spec in subject.domain.screens:
-            if not spec.stateful and time.monotonic() < end:
-                yield from _one_screen(subject, answer, batch, spec, end)
+            if spec.name in wrong or spec.stateful or time.monotonic() >= end:
+                continue
+            for fault in _one_screen(subject, answer, batch, spec, end):
+                wrong.add(spec.name)
+                yield fault
 
 
 def _one_screen(
