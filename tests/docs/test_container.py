@@ -74,7 +74,7 @@ def test_it_builds_and_runs_a_program_locked_in(tmp_path):
     build = [engine, "build", "-f", FILE, "-t", "proc3s-test", ROOT]
     built = subprocess.run(build, capture_output=True, text=True, timeout=3600)
     assert built.returncode == 0, built.stderr
-    run = [engine, "run", "--rm", "-v", f"{tmp_path}:/work", "proc3s-test"]
+    run = [engine, "run", "--rm", "-v", f"{tmp_path}:/data", "proc3s-test"]
     assert "programs run locked in" in call(*run, "doctor", cwd=tmp_path)
     assert "solved" in call(*run, "run", "drawing/star", "--out", "star", cwd=tmp_path)
     assert (tmp_path / "star/plan.png").is_file()
