@@ -47,6 +47,13 @@ def test_a_sound_domain_is_fine_in_every_way(push, cli):
     }
 
 
+def test_a_folder_called_like_a_known_domain_does_not_hide_it(cli, here):
+    (here / "drawing").mkdir()
+    known = cli("check", "drawing", "--seconds", 1)
+    assert (known.code, "drawing: 0 errors" in known.stdout) == (0, True), known.stderr
+    assert "drawing has no domain.yaml" in cli("check", "./drawing/").stderr
+
+
 BROKEN = {
     "targets": ("domain.py", "def on_table(", "def off_table(", "proc3s_push.domain has no 'on_table'"),
     "scenes": (

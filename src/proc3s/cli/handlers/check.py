@@ -76,13 +76,19 @@ def _print(out: Console, checked: Checked) -> None:
 
 
 def _found(wanted: str, plugins: Sequence[Path]) -> tuple[Registry, str]:
-    """The registry that has the domain, and its name."""
+    """The registry that has the domain, and its name: a bare word means one that is known before a path."""
     path = Path(wanted)
-    if not path.exists():
-        if path.suffix or "/" in wanted:
-            raise UsageError(f"there is no file or folder {wanted}")
+    if not path.suffix and "/" not in wanted:
         registry = open_registry(plugins)
-        return registry, registry.get(DomainSpec, wanted).name
+        if not path.exists() or wanted in registry.all(DomainSpec):
+            return registry, registry.get(DomainSpec, wanted).name
+    if not path.exists():
+        raise UsageError(f"there is no file or folder {wanted}")
+    return _in_path(path, plugins)
+
+
+def _in_path(path: Path, plugins: Sequence[Path]) -> tuple[Registry, str]:
+    """The same for the domain at a path."""
     file = _file(path)
     for plugin in (_plugin(path, file), file):
         registry = open_registry([*plugins, plugin])
