@@ -47,11 +47,11 @@ def test_a_sound_domain_is_fine_in_every_way(push, cli):
     }
 
 
-def test_a_folder_called_like_a_known_domain_does_not_hide_it(cli, here):
-    (here / "drawing").mkdir()
-    known = cli("check", "drawing", "--seconds", 1)
-    assert (known.code, "drawing: 0 errors" in known.stdout) == (0, True), known.stderr
-    assert "drawing has no domain.yaml" in cli("check", "./drawing/").stderr
+def test_a_folder_called_like_a_known_domain_does_not_hide_it(push, cli, here):
+    (here / "push").mkdir()
+    known = cli("check", "push", "--plugin", push, "--seconds", 1)
+    assert (known.code, "push: 0 errors" in known.stdout) == (0, True), known.stderr
+    assert "push has no domain.yaml" in cli("check", "./push").stderr
 
 
 BROKEN = {
