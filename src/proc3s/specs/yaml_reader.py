@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 import yaml
+from yaml.composer import Composer
 
 from proc3s.errors import Issue, SpecError
 from proc3s.textfiles import decoded
@@ -35,7 +36,7 @@ def scalar(text: str) -> Any:
     return next((convert(text) for pattern, convert in _SCALARS if pattern.fullmatch(text)), text)
 
 
-class _Loader(yaml.SafeLoader):
+class _Composer(Composer):
     """Leaves plain words alone; only tags that the file itself writes are resolved."""
 
     _levels = 0
@@ -43,16 +44,39 @@ class _Loader(yaml.SafeLoader):
     def resolve(self, kind: Any, value: Any, implicit: Any) -> Any:
         if kind is yaml.ScalarNode and implicit[0]:
             return _PLAIN
-        return super().resolve(kind, value, implicit)  # type: ignore[no-untyped-call]
+        return super().resolve(kind, value, implicit)  # type: ignore[misc]
 
     def compose_node(self, parent: Any, index: Any) -> Any:
         self._levels += 1
         if self._levels > MOST_LEVELS:
-            mark = self.peek_event().start_mark  # type: ignore[no-untyped-call]
+            mark = self.peek_event().start_mark  # type: ignore[attr-defined]
             raise yaml.MarkedYAMLError(problem=f"nested more than {MOST_LEVELS} deep", problem_mark=mark)
         node = super().compose_node(parent, index)
         self._levels -= 1
         return node
+
+
+class _Loader(_Composer, yaml.SafeLoader):
+    """Reads in Python, and says best what is wrong."""
+
+
+_InC: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+
+
+class _FastLoader(_Composer, _InC):  # type: ignore[misc]
+    """Reads in C where PyYAML was built with it."""
+
+    def __init__(self, stream: str) -> None:
+        _InC.__init__(self, stream)
+        Composer.__init__(self)
+
+
+def _composed(text: str) -> yaml.Node | None:
+    """The tree of a document. Raises YAMLError and ValueError."""
+    try:
+        return yaml.compose(text, Loader=_FastLoader)
+    except (yaml.YAMLError, ValueError):
+        return yaml.compose(text, Loader=_Loader)
 
 
 class Document:
@@ -70,7 +94,7 @@ class Document:
         self._repeated = 0
         text = self._text()
         try:
-            node = yaml.compose(text, Loader=_Loader)
+            node = _composed(text)
         except yaml.MarkedYAMLError as error:
             mark = error.problem_mark or error.context_mark
             self._invalid(mark.line + 1 if mark else 1, str(error.problem))
