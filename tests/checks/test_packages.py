@@ -44,6 +44,7 @@ def test_what_cannot_be_begun_is_said_and_nothing_is_written(args, words, cli, h
     assert [path.name for path in here.rglob("*") if path.is_file()] == ["mine.txt"]
 
 
+@pytest.mark.slow
 def test_a_begun_domain_is_a_sound_one(cli, here, monkeypatch):
     monkeypatch.setattr(sys, "path", list(sys.path))
     told = cli("new", "domain", "shelves").stdout

@@ -99,6 +99,7 @@ def test_a_worked_example(save):
     assert example_turns(moved, example, "sketch") == example_turns(problem, example, "sketch")
 
 
+@pytest.mark.slow
 def test_a_suite(cli, save):
     suite = "name: mine\nsummary: Mine.\ntasks: [drawing/star]\nmethods: [proc3s]\nseeds: 1\n"
     done = cli("bench", save("mine.yaml", suite), "--llm", "replay", "--out", "suite", "--json")

@@ -50,6 +50,7 @@ def test_a_plugin_that_ends_the_process_is_listed_and_others_go_on(cli, here, ra
     assert {"run": "solved", "list": "drawing", "plugins": "loaded"}[command[0]] in said
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("raised", RAISED)
 def test_hooks_that_are_called_later_end_nothing_either(cli, here, raised):
     for hook in ("on_event(event): quit()", "prompt_context(problem, method): quit()"):
@@ -146,6 +147,7 @@ def check(state, batch): return [None] * len(batch)
 PLAIN = {"SKILL": "add", "CONSTRAINT": "few", "INITIAL": "none", "JUDGE": "fine", "SCREENS": "check"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("part", "named", "jobs"),
     [

@@ -1,5 +1,7 @@
 """What preset `best` does beyond the paper: the judge inside the loop, repairs, restarts, graded feedback."""
 
+import pytest
+
 BROKEN = """
 ```python
 def gen_plan(initial, x):
@@ -73,6 +75,7 @@ def test_a_program_that_cannot_be_used_costs_a_repair_and_no_round(cli, stub, he
     assert (paper.code, paper.json["rounds"]) == (1, 1)
 
 
+@pytest.mark.slow
 def test_repairs_are_limited(cli, stub, answers):
     result = run(cli, stub(*[BROKEN] * 3, answers.star), "--feedback", 1)
     assert (result.json["solved"], result.json["rounds"]) == (True, 1)

@@ -67,6 +67,7 @@ def test_a_plugin_author_imports_no_engine():
     assert done.stdout.split() == ["False", "False"]
 
 
+@pytest.mark.slow
 def test_no_display_is_needed(shell):
     result = shell("run", "drawing/star", "--json", env={"DISPLAY": "", "MPLBACKEND": "TkAgg"})
     assert result.code == 0, result.stderr

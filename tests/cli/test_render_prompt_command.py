@@ -306,6 +306,7 @@ def test_what_was_approved_on_another_python_is_as_approved(cli, here, monkeypat
     assert cli(*check).code == 2
 
 
+@pytest.mark.slow
 def test_approving_in_a_place_that_cannot_be_written(cli, here):
     (here / "file").write_text("")
     result = cli("render-prompt", "--check", "file", "--update")

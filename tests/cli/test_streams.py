@@ -60,6 +60,7 @@ def piped(here):
     return run
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("arguments", "code"),
     [
@@ -88,6 +89,7 @@ def test_closed_full_and_gone(piped, here, arguments, code):
         assert b"stdout cannot be written: No space left on device" in done.stderr
 
 
+@pytest.mark.slow
 def test_files_of_a_run_do_not_take_the_number_of_a_closed_stream(piped, here):
     piped("run drawing/star --llm replay --out run >&- 2>&-")
     lines = (here / "run/events.jsonl").read_text().splitlines()
@@ -109,6 +111,7 @@ def test_another_encoding_gets_what_it_has(piped, here, encoding, arguments):
         assert r"\u6f22 \ud83d\ude00" in text
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("encoding", ["utf-8", "ascii"])
 @pytest.mark.parametrize(
     "arguments",
@@ -138,6 +141,7 @@ def test_a_prompt_is_alone_on_stdout_too(cli, here):
     assert "hello" in result.stderr
 
 
+@pytest.mark.slow
 def test_a_folder_whose_name_is_not_utf_8(shell, here):
     folder = os.fsdecode(b"run\xff")
     done = shell(*STAR, "--out", folder, "--json")

@@ -116,6 +116,7 @@ def test_an_answer_that_cannot_be_recorded_is_used_and_that_is_said(limited, her
     assert read_recordings(here / "kept.jsonl") == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", [("report", "run"), ("bench", "smoke", "--out", "suite")])
 def test_other_commands_say_what_could_not_be_written(limited, cli, command):
     assert cli(*RUN).code == 0

@@ -115,6 +115,7 @@ def test_the_first_answer_must_come():
         list(ask_all(Counting(broken=[0]), request(4), 2, pytest.fail))
 
 
+@pytest.mark.slow
 def test_calls_in_flight(cli, script, texts, here):
     """With two jobs, candidates are waited for together."""
     slow = [{"texts": [texts.hopeless], "seconds": 0.4}] * 5

@@ -29,6 +29,7 @@ def llm(result):
     return result.json["llm"]
 
 
+@pytest.mark.slow
 def test_the_order(cli, here, monkeypatch, user_file, stubs):
     assert llm(cli("run", "drawing/star", "--json")) == "replay"
     user_file('llm = "stub:user.json"')

@@ -50,6 +50,7 @@ def test_an_answer_that_was_paid_for_is_used(cli, script, texts, asked, here):
     assert read_events(here / "r")[-1]["event"] == "run_ended"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kept", [1, 2, 3, 4, 6])
 def test_a_run_that_was_cut_off_anywhere(cli, script, texts, here, kept):
     args = script(*[texts.outside] * 2, *[texts.star] * 3)
@@ -73,6 +74,7 @@ def test_killed_for_good(background, cli, eventually, script, texts, asked, here
     assert (result.code, result.json["rounds"], len(asked())) == (0, 1, 3)
 
 
+@pytest.mark.slow
 def test_the_budget_counts_what_was_spent_before(cli, script, texts, asked):
     args = script(texts.outside, texts.outside, texts.star)
     assert cli("run", "drawing/star", *args, "--samples", 60, "--max-calls", 1, "--out", "r").code == 1
@@ -165,6 +167,7 @@ def test_budgets_are_changed_one_by_one(cli, script, texts, asked):
     assert "--max-cost" in result.json["error"]
 
 
+@pytest.mark.slow
 def test_what_was_changed_stays_changed(cli, script, texts, asked):
     args = script(*[texts.outside] * 3, texts.star)
     assert cli("run", "drawing/star", *args, "--samples", 60, "--max-calls", 1, "--out", "r").code == 1

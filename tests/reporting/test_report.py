@@ -82,6 +82,7 @@ def test_a_policy_that_forbids_all_but_the_page_itself(cli, here, two_rounds):
     assert "unsafe" not in policy
 
 
+@pytest.mark.slow
 def test_every_beginning_of_a_log_has_a_page(two_rounds):
     folders = folders_of(open_registry())
     log = two_rounds / "events.jsonl"

@@ -247,6 +247,7 @@ def test_a_thought_after_the_program_hides_nothing(thought):
     assert extract_program(without_thinking(answer)) == PROGRAM
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "unit",
     [

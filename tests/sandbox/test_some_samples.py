@@ -110,6 +110,7 @@ def test_a_program_that_hangs_often_is_given_up(box):
     assert len(caught.value.done) < 30
 
 
+@pytest.mark.slow
 def test_one_in_twenty_may_hang_up_to_a_limit(box):
     sketch = box(
         unless("x % 10", HANG, "DiscreteSampler(range(1000))"),

@@ -42,6 +42,7 @@ def common(summary):
     return {k: summary[k] for k in ("solved", "plan", "samples", "violations")}
 
 
+@pytest.mark.slow
 def test_screens_and_jobs_change_no_result(solve):
     options = ("--preset", "paper", "--no-check-goal", "--solver", "rejection")
     screened = solve("drawing/star", STAR, *options)
@@ -71,6 +72,7 @@ def test_a_domain_in_a_loose_file_works_in_workers(solve):
     assert {**common(alone), "n": alone["evaluations"]} == {**common(together), "n": together["evaluations"]}
 
 
+@pytest.mark.slow
 def test_a_loose_file_that_does_not_load_leaves_the_workers_alone(solve, here):
     (here / "proc3s_plugins.py").write_text("raise RuntimeError('half written')\n")
     program = HOPS.replace("LOW", "0")

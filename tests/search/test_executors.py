@@ -28,6 +28,7 @@ def processes(request):
     return request.getfixturevalue(request.param)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("prefixes", [True, False], ids=["cache", "no cache"])
 @pytest.mark.parametrize("screened", [False, True], ids=["bare", "screened"])
 @pytest.mark.parametrize("seed", [1, 2])
@@ -107,6 +108,7 @@ def test_a_killed_worker_costs_time_and_no_result(problem, search, serial, tmp_p
     assert killed >= 2
 
 
+@pytest.mark.slow
 def test_a_plan_that_kills_its_worker_costs_that_plan_alone(problem, search, two, serial):
     """One in about fifty plans takes the simulator down; all others get their verdicts."""
     deadly = search(problem(world={"deadly": (14.0, 14.6)}), two, budget=60, exhaust=True)

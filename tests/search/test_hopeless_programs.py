@@ -39,6 +39,7 @@ def test_a_round_ends_when_its_first_samples_all_raise_alike(told, preset):
     assert "name 'undefined' is not defined" in question
 
 
+@pytest.mark.slow
 def test_other_types_or_lines_are_no_such_end(told):
     for body in (
         "    raise (ValueError if x < 50 else TypeError)('no')",
@@ -79,6 +80,7 @@ def test_a_program_that_hangs_now_and_then_is_solved(told):
     assert summary["solved"]
 
 
+@pytest.mark.slow
 def test_a_program_that_hangs_often_is_given_up(told):
     body = f"    while x < 30: pass\n{OUTSIDE}"
     summary, question = told(body, "--limit", "call=0.1", "--samples", 1000)

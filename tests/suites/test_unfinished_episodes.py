@@ -112,6 +112,7 @@ def test_a_scene_that_raises_ends_the_suite_before_the_first_episode(bench, here
     assert not (here / "out").exists()
 
 
+@pytest.mark.slow
 def test_an_episode_that_cannot_be_carried_out_is_tried_again_and_in_no_rate(bench, here):
     (here / "broken").touch()
     result = bench("--out", "out", seeds=2)
