@@ -5,7 +5,7 @@ import math
 import pytest
 from tables import bodies_of, carry_out, frames_of
 
-from proc3s_tabletop.bullet.grip_cache import GripSimulator
+from proc3s_tabletop.bullet.engine import BulletEngine
 from proc3s_tabletop.bullet.scene import Snapshot
 from proc3s_tabletop.bullet.simulation import TableScene
 from proc3s_tabletop.objects.body import CATEGORIES
@@ -19,7 +19,7 @@ LEVEL = (0.0, 0.0, 0.0, 1.0)
 
 @pytest.fixture
 def simulator():
-    made = GripSimulator(bodies_of(SCENE), ReferenceSettings())
+    made = BulletEngine().grips(bodies_of(SCENE), ReferenceSettings())
     yield made
     made.close()
 
@@ -87,7 +87,7 @@ def test_a_used_simulator_gives_what_a_fresh_one_gives(simulator):
     grips = [(tool(0.0, -0.5, 0.02), ((BLOCK, Frame((dx, -0.5, 0.02), LEVEL)),), 1.0) for dx in (0.0, 0.008)]
 
     def answers(questions, grips):
-        fresh = GripSimulator(bodies_of(SCENE), ReferenceSettings())
+        fresh = BulletEngine().grips(bodies_of(SCENE), ReferenceSettings())
         try:
             gripped = {grip: fresh.grip(*grip) for grip in grips}
             return {question: fresh.rest(question) for question in questions} | gripped

@@ -10,7 +10,7 @@ import trimesh
 from scipy.spatial import ConvexHull
 
 from proc3s import SpecError
-from proc3s_tabletop.bullet.grip_cache import GripSimulator
+from proc3s_tabletop.bullet.engine import BulletEngine
 from proc3s_tabletop.catalogue.body_specs import bodies_of
 from proc3s_tabletop.robot.frames import Frame
 from proc3s_tabletop.robot.settings import ReferenceSettings
@@ -53,7 +53,7 @@ def mesh(path, **more):
 
 def stays(body):
     start = Frame((0.0, 0.0, body.height), (0.0, 0.0, 0.0, 1.0))
-    grips = GripSimulator({"thing": body}, ReferenceSettings())
+    grips = BulletEngine().grips({"thing": body}, ReferenceSettings())
     try:
         found = grips.rest(((body, start),))
     finally:

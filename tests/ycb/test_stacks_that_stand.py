@@ -6,7 +6,7 @@ import re
 import pytest
 
 from proc3s.plugins.registry import open_registry
-from proc3s_tabletop.bullet.grip_cache import GripSimulator
+from proc3s_tabletop.bullet.engine import BulletEngine
 from proc3s_tabletop.catalogue.body_specs import bodies_of
 from proc3s_tabletop.robot import frames as poses
 from proc3s_tabletop.robot.settings import ReferenceSettings
@@ -37,7 +37,9 @@ def stacked():
     """The strawberry where it comes to rest on the can."""
     bodies = bodies_of(BODIES)
     names, start = (CAN, BERRY), over_can(BERRY, BERRY_LOW)
-    bench = GripSimulator({name: bodies[START.objects[name].category] for name in names}, ReferenceSettings())
+    bench = BulletEngine().grips(
+        {name: bodies[START.objects[name].category] for name in names}, ReferenceSettings()
+    )
     lies = [(bodies[start.objects[n].category], poses.frame(start.objects[n].pose)) for n in names]
     rest = bench.rest(tuple(lies))
     bench.close()

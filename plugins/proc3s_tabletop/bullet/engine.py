@@ -5,9 +5,9 @@ from pathlib import Path
 
 from proc3s import FloatArray
 from proc3s_tabletop.bullet import landing
-from proc3s_tabletop.bullet.grip_cache import GripSimulator
 from proc3s_tabletop.bullet.hand_scene import HandScene
 from proc3s_tabletop.bullet.scene import Scene
+from proc3s_tabletop.engine.grips import GripSimulator
 from proc3s_tabletop.engine.snapshot import Snapshot
 from proc3s_tabletop.objects.body import Body
 from proc3s_tabletop.robot.settings import ReferenceSettings
@@ -26,7 +26,7 @@ class BulletEngine:
 
     def grips(self, bodies: Mapping[str, Body], settings: ReferenceSettings) -> GripSimulator:
         """Grips and falls among these bodies."""
-        return GripSimulator(bodies, settings)
+        return GripSimulator(bodies, settings, HandScene)
 
     def landed(self, pieces: Sequence[FloatArray], turn: FloatArray) -> FloatArray:
         """Which direction (3,) of a body is down when it has come to rest that was let go with a turn."""

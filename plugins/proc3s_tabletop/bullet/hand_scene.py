@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from proc3s_tabletop.bullet import rays
+from proc3s_tabletop.bullet import contacts, rays
 from proc3s_tabletop.bullet.contacts import DISTANCE
 from proc3s_tabletop.bullet.hand import FloatingHand
 from proc3s_tabletop.bullet.simulation import TableScene
@@ -16,6 +16,8 @@ class HandScene(TableScene):
 
     robot: FloatingHand
 
+    robot_contact = contacts.robot_contact
+    grip_force = contacts.grip_force
     cover = rays.cover
 
     def __init__(self, bodies: Mapping[str, Body], settings: ReferenceSettings) -> None:

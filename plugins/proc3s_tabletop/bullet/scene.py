@@ -6,8 +6,8 @@ import numpy as np
 
 from proc3s_tabletop.bullet import contacts, forces, rays
 from proc3s_tabletop.bullet.arm import Robot
-from proc3s_tabletop.bullet.settle import settle as settled
 from proc3s_tabletop.bullet.simulation import TableScene
+from proc3s_tabletop.engine.settle import settle as settled
 from proc3s_tabletop.engine.snapshot import Snapshot
 from proc3s_tabletop.objects.body import Body
 from proc3s_tabletop.robot.frames import Held, rounded

@@ -1,16 +1,16 @@
 """The things of a scene in one client: the table, the named bodies, and a hand to move them with."""
 
 import tempfile
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TypeAlias
 
 from proc3s_tabletop.bullet.client import Client
 from proc3s_tabletop.bullet.collision_shapes import create
 from proc3s_tabletop.bullet.hand import Hand
-from proc3s_tabletop.engine.values import Lies
+from proc3s_tabletop.engine.named_bodies import NamedBodies
 from proc3s_tabletop.objects.body import Body
-from proc3s_tabletop.robot.frames import Frame, Held
+from proc3s_tabletop.robot.frames import Frame
 from proc3s_tabletop.robot.settings import ReferenceSettings
 from proc3s_tabletop.telemetry import TABLE, Vector
 
@@ -21,7 +21,7 @@ GRAVITY = (0.0, 0.0, -9.8)
 MakeHand: TypeAlias = Callable[[Client, ReferenceSettings, Path], Hand]
 
 
-class TableScene:
+class TableScene(NamedBodies):
     """A table with its top at z = 0, the named bodies, parked until they are put somewhere, and a hand."""
 
     robot: Hand
@@ -40,9 +40,9 @@ class TableScene:
                 name: create(body, client, Path(folder), _parked(k))
                 for k, (name, body) in enumerate(bodies.items())
             }
-        self.shapes: Mapping[str, Body] = dict(bodies)
+        self.shapes = dict(bodies)
         self.named = {body: name for name, body in self.bodies.items()} | {self.table: TABLE}
-        self.held: Held | None = None
+        self.held = None
 
     def _table(self) -> int:
         """A slab wider than the table's bounds: what leaves them is judged, not dropped."""
@@ -55,11 +55,6 @@ class TableScene:
     def close(self) -> None:
         """Release the client."""
         self.client.close()
-
-    @property
-    def names(self) -> tuple[str, ...]:
-        """The bodies, in the order of the scene."""
-        return tuple(self.bodies)
 
     def clear(self) -> None:
         """Park every body, and forget all contacts.
@@ -76,18 +71,6 @@ class TableScene:
     def frame(self, name: str) -> Frame:
         """Where an object is."""
         return Frame(*self.client.getBasePositionAndOrientation(self.bodies[name]))
-
-    def frames(self) -> dict[str, Frame]:
-        """Where all objects are that are not in hand."""
-        return {name: self.frame(name) for name in self.loose()}
-
-    def loose(self) -> Iterator[str]:
-        """The objects that are not in hand."""
-        return (name for name in self.bodies if not self.held or name != self.held.name)
-
-    def lies(self, names: Iterable[str]) -> Lies:
-        """Bodies and where they are."""
-        return tuple((self.shapes[name], self.frame(name)) for name in names)
 
     def near(self, name: str, distance: float) -> list[str]:
         """The other objects that are this close to one, metres."""
@@ -113,12 +96,6 @@ class TableScene:
     def park(self, name: str) -> None:
         """Move an object out of everything's way."""
         self.put(name, Frame(_parked(list(self.bodies).index(name)), (0.0, 0.0, 0.0, 1.0)))
-
-    def bring_back(self, frames: Mapping[str, Frame]) -> None:
-        """Put objects back, at rest."""
-        for name, frame in frames.items():
-            self.put(name, frame)
-            self.stop(name)
 
     def stop(self, name: str) -> None:
         """Bring an object to rest."""
@@ -149,17 +126,6 @@ class TableScene:
         body = self.bodies[name]
         force = [self.shapes[name].mass * a for a in acceleration]
         self.client.applyExternalForce(body, -1, force, self.frame(name).position, self.client.WORLD_FRAME)
-
-    def in_tool(self, name: str) -> Frame:
-        """Where an object is in the frame of tool0."""
-        inverse = self.client.invertTransform(*self.robot.tool())
-        return Frame(*self.client.multiplyTransforms(*inverse, *self.frame(name)))
-
-    def carry(self) -> None:
-        """Move the held object to where the hand has it."""
-        if self.held:
-            frame = self.client.multiplyTransforms(*self.robot.tool(), *self.held.frame)
-            self.put(self.held.name, Frame(*frame))
 
 
 def _parked(k: int) -> Vector:

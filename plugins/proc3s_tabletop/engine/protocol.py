@@ -106,6 +106,9 @@ class TableSimulation(Protocol):
     def tick(self, count: int = 1) -> None:
         """Let time pass."""
 
+    def speeds(self, name: str) -> tuple[float, float]:
+        """The largest component of an object's velocity (m/s) and of its turn (rad/s)."""
+
     def touched(self, name: str) -> set[str]:
         """What an object touches after a tick, by name; the table is TABLE."""
 
@@ -128,6 +131,25 @@ class HandSimulation(TableSimulation, Protocol):
 
     def depth(self, one: str, other: str) -> float:
         """How deep two objects, or an object and TABLE, are in one another, metres; 0 if they are not."""
+
+
+class GripScene(HandSimulation, Protocol):
+    """Bodies on a table under a hand without an arm, which grips them and shakes them."""
+
+    def let_collide(self, name: str, on: bool) -> None:
+        """Whether an object meets the table and the other objects; it always meets the hand."""
+
+    def push(self, name: str, acceleration: Vector) -> None:
+        """Pull at an object's centre of mass for the next tick, m/s2 beside gravity."""
+
+    def in_tool(self, name: str) -> Frame:
+        """Where an object is in the frame of tool0."""
+
+    def robot_contact(self, gripped: str | None = None) -> Clearance | None:
+        """The deepest contact of the hand, that with the object it grips apart."""
+
+    def grip_force(self, name: str) -> float:
+        """Normal force of the side of the hand that presses an object less, newtons."""
 
 
 class Simulation(TableSimulation, Protocol):

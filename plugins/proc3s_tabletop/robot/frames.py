@@ -51,3 +51,37 @@ def rounded(frame: Frame, digits: int, of_turn: int = 9) -> Frame:
     x, y, z = (round(float(v), digits) for v in frame.position)
     qx, qy, qz, qw = (round(float(v), of_turn) for v in frame.rotation)
     return Frame((x, y, z), (qx, qy, qz, qw))
+
+
+def compose(outer: Frame, inner: Frame) -> Frame:
+    """A frame that is given in another one, in the frame that the other is given in."""
+    x, y, z = _turned(outer.rotation, inner.position)
+    px, py, pz = outer.position
+    ax, ay, az, aw = outer.rotation
+    bx, by, bz, bw = inner.rotation
+    rotation = (
+        aw * bx + ax * bw + ay * bz - az * by,
+        aw * by - ax * bz + ay * bw + az * bx,
+        aw * bz + ax * by - ay * bx + az * bw,
+        aw * bw - ax * bx - ay * by - az * bz,
+    )
+    return Frame((px + x, py + y, pz + z), rotation)
+
+
+def inverse(frame: Frame) -> Frame:
+    """The frame that undoes another one."""
+    x, y, z, w = frame.rotation
+    back = (-x, -y, -z, w)
+    px, py, pz = _turned(back, frame.position)
+    return Frame((-px, -py, -pz), back)
+
+
+def _turned(rotation: Quaternion, vector: Vector) -> Vector:
+    """A vector after a rotation."""
+    (x, y, z, w), (vx, vy, vz) = rotation, vector
+    tx, ty, tz = 2 * (y * vz - z * vy), 2 * (z * vx - x * vz), 2 * (x * vy - y * vx)
+    return (
+        vx + w * tx + y * tz - z * ty,
+        vy + w * ty + z * tx - x * tz,
+        vz + w * tz + x * ty - y * tx,
+    )

@@ -2,10 +2,10 @@
 
 from collections.abc import Iterable, Sequence
 
-from proc3s_tabletop.bullet.simulation import TableScene
+from proc3s_tabletop.engine.protocol import TableSimulation
 
 
-def settle(scene: TableScene, names: Sequence[str]) -> bool:
+def settle(scene: TableSimulation, names: Sequence[str]) -> bool:
     """Let time pass until these objects are still at two looks in a row; False if the time is up before."""
     settings = scene.settings
     scene.tick(settings.settle_first)
@@ -17,7 +17,7 @@ def settle(scene: TableScene, names: Sequence[str]) -> bool:
     return looks == 2
 
 
-def still(scene: TableScene, names: Iterable[str]) -> bool:
+def still(scene: TableSimulation, names: Iterable[str]) -> bool:
     """Whether none of these objects moves."""
     settings = scene.settings
     speeds = (scene.speeds(name) for name in names)

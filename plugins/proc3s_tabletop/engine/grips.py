@@ -2,14 +2,14 @@
 
 import dataclasses
 import functools
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 
-from proc3s_tabletop.bullet.grip_test import GripSetup, try_grip, upright
-from proc3s_tabletop.bullet.hand_scene import HandScene
-from proc3s_tabletop.bullet.settle import settle
+from proc3s_tabletop.engine.grip_test import GripSetup, try_grip, upright
+from proc3s_tabletop.engine.protocol import GripScene
+from proc3s_tabletop.engine.settle import settle
 from proc3s_tabletop.engine.values import ALOFT, Grip, Lies, Rest
 from proc3s_tabletop.objects.body import Body
-from proc3s_tabletop.robot.frames import Frame, rounded
+from proc3s_tabletop.robot.frames import Frame, compose, inverse, rounded
 from proc3s_tabletop.robot.settings import ReferenceSettings
 
 MOST = 1024
@@ -23,12 +23,17 @@ class GripSimulator:
     """Simulates a few things on a table under a hand without an arm, always in the same place.
 
     The outcome depends on the question alone, so it is cached. Equal bodies of a scene share their outcomes:
-    the first of each sort is simulated in place of the others. Close it after use.
+    the first of each sort is simulated in place of the others. `make` makes the table. Close it after use.
     """
 
-    def __init__(self, bodies: Mapping[str, Body], settings: ReferenceSettings) -> None:
-        self._bodies, self._settings = bodies, settings
-        self._made: HandScene | None = None
+    def __init__(
+        self,
+        bodies: Mapping[str, Body],
+        settings: ReferenceSettings,
+        make: Callable[[Mapping[str, Body], ReferenceSettings], GripScene],
+    ) -> None:
+        self._bodies, self._settings, self._make = bodies, settings, make
+        self._made: GripScene | None = None
         self._known_grip = functools.lru_cache(MOST)(self._grip)
         self._known_rest = functools.lru_cache(MOST)(self._rest)
 
@@ -60,10 +65,10 @@ class GripSimulator:
         return Rest(tuple(self._scene.frame(name) for name in names), at_rest)
 
     @property
-    def _scene(self) -> HandScene:
+    def _scene(self) -> GripScene:
         """The simulated table, made when it is first needed."""
         if self._made is None:
-            self._made = HandScene(self._bodies, self._settings)
+            self._made = self._make(self._bodies, self._settings)
         return self._made
 
     def _lay(self, names: Iterable[str], lies: Lies, tool: Frame) -> None:
@@ -88,16 +93,15 @@ class GripSimulator:
 
     def _moved(self, there: Frame, frame: Frame) -> Frame:
         """A frame after a transform, rounded; of the two quaternions of a turn that with a positive start."""
-        moved = Frame(*self._scene.client.multiplyTransforms(*there, *frame))
+        moved = compose(there, frame)
         position, rotation = rounded(moved, DIGITS, DIGITS)
         first = next(v for v in rotation if v)
         x, y, z, w = (v if first > 0 else -v for v in rotation)
         return Frame(position, (x, y, z, w))
 
     def _back(self, there: Frame, frames: Iterable[Frame]) -> tuple[Frame, ...]:
-        client = self._scene.client
-        back = client.invertTransform(*there)
-        return tuple(Frame(*client.multiplyTransforms(*back, *frame)) for frame in frames)
+        back = inverse(there)
+        return tuple(compose(back, frame) for frame in frames)
 
     def close(self) -> None:
         """Release the simulator."""

@@ -6,8 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from proc3s_tabletop.bullet.contacts import grip_force, robot_contact
-from proc3s_tabletop.bullet.simulation import TableScene
+from proc3s_tabletop.engine.protocol import GripScene
 from proc3s_tabletop.engine.values import Grip
 from proc3s_tabletop.objects.body import Body
 from proc3s_tabletop.robot.frames import Frame
@@ -35,38 +34,38 @@ def upright(tool: Frame) -> Frame:
     return Frame((s * py - c * px, -s * px - c * py, 0.0), (0.0, 0.0, math.sin(turn / 2), math.cos(turn / 2)))
 
 
-def try_grip(scene: TableScene, names: list[str]) -> Grip:
+def try_grip(scene: GripScene, names: list[str]) -> Grip:
     """Close the fingers on the first of the things named and shake it; the others lie around it."""
     telemetry = close(scene, names[0])
     if not telemetry.ended:
         telemetry = shake(scene, names[0], telemetry)
     others = tuple(scene.frame(name) for name in names[1:])
-    angle = scene.robot.read_fingers()[0]
+    angle = scene.hand.read_fingers()[0]
     return Grip(_by_place(telemetry, names), angle, scene.in_tool(names[0]), others)
 
 
-def close(scene: TableScene, name: str) -> Telemetry:
+def close(scene: GripScene, name: str) -> Telemetry:
     """Close the fingers until they stand still; both must press the object and nothing else be touched."""
-    settings, robot = scene.settings, scene.robot
+    settings, robot = scene.settings, scene.hand
     scene.set_iterations(settings.grip_iterations)
     robot.drive_fingers(settings.finger_closed)
     still = 0
     for tick in range(settings.close_most):
         scene.tick()
-        if tick % settings.check_every == 0 and (touched := robot_contact(scene, name)):
+        if tick % settings.check_every == 0 and (touched := scene.robot_contact(name)):
             return Telemetry(ended="close", clearance=touched)
         slow = abs(robot.read_fingers()[1]) < settings.stall_speed
         still = still + 1 if slow and tick > settings.close_least else 0
         if still >= settings.stall:
             break
-    if touched := robot_contact(scene, name):
+    if touched := scene.robot_contact(name):
         return Telemetry(ended="close", clearance=touched)
-    force = grip_force(scene, name)
+    force = scene.grip_force(name)
     ended: Stage | None = "close" if force <= 0 else None
     return Telemetry(ended=ended, finger_gap=robot.gap(), grip_force=force)
 
 
-def shake(scene: TableScene, name: str, closed: Telemetry) -> Telemetry:
+def shake(scene: GripScene, name: str, closed: Telemetry) -> Telemetry:
     """The lift test: nothing but the fingers holds the object, it is pulled about; how far does it slip?"""
     settings = scene.settings
     gripped = scene.in_tool(name)
