@@ -1,4 +1,4 @@
-"""Packages that come with the extra `tabletop` alone."""
+"""Packages that come with an extra alone."""
 
 import platform
 import sys
@@ -12,18 +12,19 @@ _OLDER_PYTHON = {"pybullet": (3, 12)}
 
 
 @contextmanager
-def extra() -> Iterator[None]:
-    """Around an import of such a package: where it is not installed, UsageError says how to get it."""
+def extra(name: str = "tabletop") -> Iterator[None]:
+    """Around an import of a package of an extra: where it is not installed, UsageError says how to get it."""
     try:
         yield
     except ModuleNotFoundError as error:
-        raise UsageError(f"the table-top needs {error.name}{_way_out(error.name or '')}") from error
+        raise UsageError(f"the table-top needs {error.name}{_way_out(error.name or '', name)}") from error
 
 
-def _way_out(package: str) -> str:
+def _way_out(package: str, extra: str) -> str:
     if sys.version_info < _OLDER_PYTHON.get(package, (sys.maxsize,)):
-        return ": pip install 'proc3s[tabletop]'"
+        return f": pip install 'proc3s[{extra}]'"
     return (
-        f", which has no wheel for Python {platform.python_version()}: make an environment of Python 3.11 "
-        "(`uv venv --python 3.11 --seed`) and install proc3s[tabletop] there"
+        f", which has no wheel for Python {platform.python_version()}: pip install 'proc3s[mujoco]', which does "
+        "without, or make an environment of Python 3.11 (`uv venv --python 3.11 --seed`) and install "
+        "proc3s[tabletop] there"
     )

@@ -16,7 +16,7 @@ from proc3s_tabletop.actions.execution import Execution
 from proc3s_tabletop.actions.reference import Reference
 from proc3s_tabletop.actions.table import Table
 from proc3s_tabletop.catalogue.body_specs import bodies_of, body_of
-from proc3s_tabletop.engine.choice import engine
+from proc3s_tabletop.engine import choice
 from proc3s_tabletop.engine.snapshot import Snapshot
 from proc3s_tabletop.objects.body import Body
 from proc3s_tabletop.objects.shapes import Mesh
@@ -46,7 +46,8 @@ class TabletopWorld(World[Telemetry]):
 
     `bodies` says which body a category has (see `body_specs`); block and bowl where it is not given. `speed`
     scales that of arm and fingers; disturbed, things come down up to `placement_error` metres off along x and
-    along y. The simulator starts with the first state, and again when a state has other objects.
+    along y. `engine` names the physics engine. It starts with the first state, and again when a state has
+    other objects.
     """
 
     measures = Telemetry
@@ -57,8 +58,10 @@ class TabletopWorld(World[Telemetry]):
         bodies: Mapping[str, Any] | None = None,
         speed: float = 1.0,
         placement_error: float = OFF,
+        engine: str | None = None,
     ) -> None:
         super().__init__(domain)
+        self.engine = engine
         self.speed, self.placement_error = speed, placement_error
         self.categories = bodies_of(bodies)
         self._bodies: dict[str, Body] = {}
@@ -113,7 +116,7 @@ class TabletopWorld(World[Telemetry]):
         from proc3s_tabletop.actions.beginning import flaws_of
 
         objects: Mapping[str, Any] = state.objects  # type: ignore[attr-defined]
-        return flaws_of(objects, *self._placed(objects))
+        return flaws_of(objects, *self._placed(objects), self.engine)
 
     def _placed(self, objects: Mapping[str, Any]) -> tuple[dict[str, Body], dict[str, Frame]]:
         """The bodies of objects, and where they are."""
@@ -157,7 +160,7 @@ class TabletopWorld(World[Telemetry]):
     def render(self, plan: Plan, path: Path) -> None:
         """Draw the world after a plan, and at `path` with `-step0`, `-step1`, ... where each step led."""
         colors = {name: getattr(thing, "color", "") for name, thing in self.state.objects.items()}
-        engine().draw(self._bodies, colors, self._film, path)
+        choice.engine(self.engine).draw(self._bodies, colors, self._film, path)
 
     def render_marked(self, plan: Plan, path: Path, marked: Sequence[str]) -> None:
         """Draw the world after a plan, with a ring and the name around objects that are marked."""
@@ -199,7 +202,7 @@ class ExecutionWorld(TabletopWorld):
 
     def make_table(self, bodies: Mapping[str, Body], frames: Mapping[str, Frame]) -> Table:
         """A table whose arm is driven."""
-        return Execution(bodies, frames)
+        return Execution(bodies, frames, engine=self.engine)
 
 
 class ReferenceWorld(TabletopWorld):
@@ -209,4 +212,4 @@ class ReferenceWorld(TabletopWorld):
 
     def make_table(self, bodies: Mapping[str, Body], frames: Mapping[str, Frame]) -> Table:
         """A table whose arm is kinematic."""
-        return Reference(bodies, frames)
+        return Reference(bodies, frames, engine=self.engine)

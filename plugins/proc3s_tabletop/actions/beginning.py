@@ -5,12 +5,12 @@ from collections.abc import Iterator, Mapping
 from contextlib import closing
 from typing import Any
 
-from proc3s_tabletop.engine.choice import engine
+from proc3s_tabletop.engine import choice
 from proc3s_tabletop.engine.protocol import HandSimulation
 from proc3s_tabletop.engine.values import ALOFT
 from proc3s_tabletop.objects.body import Body
 from proc3s_tabletop.robot.frames import Frame
-from proc3s_tabletop.robot.settings import ReferenceSettings, inside_table
+from proc3s_tabletop.robot.settings import inside_table
 from proc3s_tabletop.sentences import called, deep_in, out_of_bounds
 from proc3s_tabletop.telemetry import TABLE
 
@@ -19,7 +19,10 @@ SUNK = 0.001
 
 
 def flaws_of(
-    objects: Mapping[str, Any], bodies: Mapping[str, Body], frames: Mapping[str, Frame]
+    objects: Mapping[str, Any],
+    bodies: Mapping[str, Body],
+    frames: Mapping[str, Frame],
+    engine: str | None = None,
 ) -> list[str]:
     """A sentence for every object, and for every pair, that cannot be where it is."""
     flaws = [
@@ -27,7 +30,8 @@ def flaws_of(
         for name, frame in frames.items()
         if (inside := inside_table(*frame.position[:2])) < 0
     ]
-    with closing(engine().hand_scene(bodies, ReferenceSettings())) as scene:
+    made = choice.engine(engine)
+    with closing(made.hand_scene(bodies, made.settings())) as scene:
         scene.hand.put(*ALOFT)
         scene.bring_back(frames)
         for one, other, depth in _overlaps(scene):

@@ -10,7 +10,7 @@ from proc3s_tabletop.actions.outcome import note_bounds
 from proc3s_tabletop.actions.pick import note_width, pick
 from proc3s_tabletop.actions.place import place
 from proc3s_tabletop.actions.table import Table
-from proc3s_tabletop.engine.choice import engine
+from proc3s_tabletop.engine import choice
 from proc3s_tabletop.objects.body import Body
 from proc3s_tabletop.robot.frames import Frame
 from proc3s_tabletop.robot.settings import SAME_GRASP, ReferenceSettings
@@ -28,9 +28,10 @@ class Reference(Table):
         bodies: Mapping[str, Body],
         frames: Mapping[str, Frame],
         settings: ReferenceSettings | None = None,
+        engine: str | None = None,
     ) -> None:
-        super().__init__(bodies, frames, settings)
-        self._grips = engine().grips(bodies, self.scene.settings)
+        super().__init__(bodies, frames, settings, engine)
+        self._grips = choice.engine(engine).grips(bodies, self.scene.settings)
 
     def pick_at(self, grasp: FloatArray) -> Telemetry:
         """Grasp and lift; ends early where that fails."""

@@ -8,7 +8,7 @@ import numpy as np
 
 from proc3s import FloatArray
 from proc3s.domain.transforms import matrices
-from proc3s_tabletop.engine.choice import engine
+from proc3s_tabletop.engine import choice
 from proc3s_tabletop.engine.protocol import Simulation
 from proc3s_tabletop.engine.snapshot import Snapshot
 from proc3s_tabletop.objects.body import Body
@@ -22,7 +22,7 @@ from proc3s_tabletop.telemetry import Telemetry
 class Table(ABC):
     """Carries out picks and places among named bodies, each a function of the snapshot it starts from.
 
-    How, a subclass says. Close it after use.
+    How, a subclass says; `engine` is the name of the engine that simulates it. Close it after use.
     """
 
     def __init__(
@@ -30,8 +30,10 @@ class Table(ABC):
         bodies: Mapping[str, Body],
         frames: Mapping[str, Frame],
         settings: ReferenceSettings | None = None,
+        engine: str | None = None,
     ) -> None:
-        self.scene: Simulation = engine().scene(bodies, settings or ReferenceSettings())
+        made = choice.engine(engine)
+        self.scene: Simulation = made.scene(bodies, settings or made.settings())
         self.attempts = 0
         """Picks and places that were attempted, up to now."""
         self.put(frames)

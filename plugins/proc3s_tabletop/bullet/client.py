@@ -18,7 +18,7 @@ class Client:
     """
 
     def __init__(self) -> None:
-        self._pybullet = _import_pybullet()
+        self._pybullet = import_pybullet()
         self._id: int = self._pybullet.connect(self._pybullet.DIRECT)
 
     def __getattr__(self, name: str) -> Any:
@@ -35,7 +35,8 @@ class Client:
             self._pybullet.disconnect(self._id)
 
 
-def _import_pybullet() -> Any:
+def import_pybullet() -> Any:
+    """The module. Raises UsageError where it is not installed."""
     with extra(), _quiet():
         import pybullet  # type: ignore[import-untyped, import-not-found, unused-ignore]
     return pybullet

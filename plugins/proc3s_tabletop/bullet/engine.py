@@ -5,6 +5,7 @@ from pathlib import Path
 
 from proc3s import FloatArray
 from proc3s_tabletop.bullet import landing
+from proc3s_tabletop.bullet.client import import_pybullet
 from proc3s_tabletop.bullet.hand_scene import HandScene
 from proc3s_tabletop.bullet.scene import Scene
 from proc3s_tabletop.engine.grips import GripSimulator
@@ -15,6 +16,14 @@ from proc3s_tabletop.robot.settings import ReferenceSettings
 
 class BulletEngine:
     """Makes simulations in PyBullet, each with a client of its own."""
+
+    def require(self) -> None:
+        """Raise UsageError where a package is missing that the engine needs."""
+        import_pybullet()
+
+    def settings(self) -> ReferenceSettings:
+        """The constants of a reference world in this engine."""
+        return ReferenceSettings()
 
     def scene(self, bodies: Mapping[str, Body], settings: ReferenceSettings) -> Scene:
         """A table with the robot and these bodies."""

@@ -116,6 +116,10 @@ class Hand(ABC):
         angle, speed, *_ = self.client.getJointState(self.id, self._driver)
         return float(angle), float(speed)
 
+    def held_angle(self) -> float:
+        """The angle that the fingers are to be put to so that they are where they are now, under load."""
+        return self.read_fingers()[0]
+
     def pads(self) -> tuple[FloatArray, FloatArray]:
         """The middles of the left and the right pad."""
         left, right = (np.array(self.client.getLinkState(self.id, pad)[4]) for pad in self._pads)

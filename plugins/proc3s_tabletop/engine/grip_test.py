@@ -40,7 +40,7 @@ def try_grip(scene: GripScene, names: list[str]) -> Grip:
     if not telemetry.ended:
         telemetry = shake(scene, names[0], telemetry)
     others = tuple(scene.frame(name) for name in names[1:])
-    angle = scene.hand.read_fingers()[0]
+    angle = scene.hand.held_angle()
     return Grip(_by_place(telemetry, names), angle, scene.in_tool(names[0]), others)
 
 

@@ -34,6 +34,9 @@ class Hand(Protocol):
     def read_fingers(self) -> tuple[float, float]:
         """Angle (rad) and speed (rad/s) of the finger joint."""
 
+    def held_angle(self) -> float:
+        """The angle that the fingers are to be put to so that they are where they are now, under load."""
+
     def linkage(self) -> tuple[float, ...]:
         """The angle of every finger joint."""
 
@@ -231,6 +234,12 @@ class GripSimulation(Protocol):
 
 class Engine(Protocol):
     """Makes simulations; whoever asks for one closes it after use."""
+
+    def require(self) -> None:
+        """Raise UsageError where a package is missing that the engine needs."""
+
+    def settings(self) -> ReferenceSettings:
+        """The constants of a reference world in this engine."""
 
     def scene(self, bodies: Mapping[str, Body], settings: ReferenceSettings) -> Simulation:
         """A table with the robot and these bodies."""

@@ -7,6 +7,7 @@ import numpy as np
 from proc3s import FloatArray
 from proc3s_tabletop.meshes.coacd import take_apart
 from proc3s_tabletop.meshes.planes import cut
+from proc3s_tabletop.objects.hulls import grown
 from proc3s_tabletop.objects.shapes import MARGIN
 
 FULL = 0.5
@@ -39,7 +40,7 @@ def core(points: FloatArray) -> FloatArray:
     corners = points[hull.vertices]
     few = _few(corners)
     short = _outside(ConvexHull(few), corners).clip(0).mean()
-    return _shrunk(few, MARGIN - float(short))
+    return grown(few, float(short) - MARGIN)
 
 
 def _few(corners: FloatArray) -> FloatArray:
@@ -64,17 +65,3 @@ def _outside(hull: Any, points: FloatArray) -> FloatArray:
     """How far points (n, 3) are outside a hull: of its planes the worst, m."""
     furthest: FloatArray = (points @ hull.equations[:, :3].T + hull.equations[:, 3]).max(axis=1)
     return furthest
-
-
-def _shrunk(corners: FloatArray, by: float) -> FloatArray:
-    """Corners moved such that the planes around each move inwards, by least squares."""
-    from scipy.spatial import ConvexHull
-
-    hull = ConvexHull(corners)
-    moved = corners.copy()
-    for k in hull.vertices:
-        normals = hull.equations[(hull.simplices == k).any(axis=1), :3]
-        step, *_ = np.linalg.lstsq(normals, np.full(len(normals), -by), rcond=0.1)
-        moved[k] += step
-    corners_of_hull: FloatArray = moved[hull.vertices]
-    return corners_of_hull

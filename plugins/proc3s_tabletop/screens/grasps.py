@@ -51,6 +51,7 @@ class _Alone:
 
     def __init__(self, state: State, domain: Domain, names: tuple[str, ...]) -> None:
         self._bodies = bodies_of(domain.spec.world.args.get("bodies"))
+        self._engine: str | None = domain.spec.world.args.get("engine")
         self._objects: Mapping[str, Any] = state.objects  # type: ignore[attr-defined]
         self.names = names
 
@@ -59,7 +60,7 @@ class _Alone:
         name = self.names[number]
         thing = self._objects[name]
         body = body_of(self._bodies, name, thing.category)
-        return lone_grasps(body, round(thing.pose.roll, 4), round(thing.pose.pitch, 4))
+        return lone_grasps(body, round(thing.pose.roll, 4), round(thing.pose.pitch, 4), self._engine)
 
 
 def _screen(screening: BatchScreening, alone: _Alone, reject: Reject) -> None:

@@ -8,13 +8,12 @@ import numpy as np
 
 from proc3s import FloatArray, Pose
 from proc3s.domain.transforms import matrices, numbers
-from proc3s_tabletop.engine.choice import engine
+from proc3s_tabletop.engine import choice
 from proc3s_tabletop.engine.protocol import GripSimulation, HandSimulation
 from proc3s_tabletop.objects.body import Body
 from proc3s_tabletop.robot import frames as poses
 from proc3s_tabletop.robot.frames import Frame
 from proc3s_tabletop.robot.grasp_frames import tool_poses
-from proc3s_tabletop.robot.settings import ReferenceSettings
 from proc3s_tabletop.robot.widths import Bools, too_wide
 from proc3s_tabletop.screens.grasp_cache import Grasp, GraspCache, GraspVerdict
 from proc3s_tabletop.tasks.grasp_sampler import pool
@@ -33,9 +32,9 @@ BODY = "body"
 
 
 @functools.cache
-def lone_grasps(body: Body, roll: float, pitch: float) -> "LoneGrasps":
+def lone_grasps(body: Body, roll: float, pitch: float, engine: str | None = None) -> "LoneGrasps":
     """What is known of grasping a body that leans by roll and pitch (rad); one in a process."""
-    return LoneGrasps(body, roll, pitch)
+    return LoneGrasps(body, roll, pitch, engine)
 
 
 @functools.cache
@@ -52,14 +51,16 @@ def rounded(grasp: FloatArray) -> Grasp:
 class LoneGrasps:
     """Measures grasps (6,) of one body, each once; those that recur, once for all runs."""
 
-    def __init__(self, body: Body, roll: float, pitch: float) -> None:
+    def __init__(self, body: Body, roll: float, pitch: float, engine: str | None = None) -> None:
         self._body, self._there = body, _at_rest(body, roll, pitch)
+        self._engine = choice.engine(engine)
+        measured = self._engine.settings()
         self._settings = settings = dataclasses.replace(
-            ReferenceSettings(),
-            max_slip=ReferenceSettings().max_slip * LENIENCE,
-            max_slip_angle=ReferenceSettings().max_slip_angle * LENIENCE,
+            measured,
+            max_slip=measured.max_slip * LENIENCE,
+            max_slip_angle=measured.max_slip_angle * LENIENCE,
         )
-        said = f"{FORMAT} {body!r} {roll!r} {pitch!r} {settings!r}"
+        said = f"{FORMAT} {engine or choice.default()} {body!r} {roll!r} {pitch!r} {settings!r}"
         self._kept = GraspCache(hashlib.sha256(said.encode()).hexdigest())
         self._known = self._kept.read()
 
@@ -96,7 +97,7 @@ class LoneGrasps:
     @functools.cached_property
     def _scene(self) -> HandSimulation:
         """The body at rest at the origin of a world of its own, and an open hand."""
-        scene = engine().hand_scene({BODY: self._body}, self._settings)
+        scene = self._engine.hand_scene({BODY: self._body}, self._settings)
         scene.hand.put_fingers(0.0)
         scene.put(BODY, _frame(self._there))
         return scene
@@ -104,7 +105,7 @@ class LoneGrasps:
     @functools.cached_property
     def _grips(self) -> GripSimulation:
         """Where the body is grasped as in the worlds."""
-        return engine().grips({BODY: self._body}, self._settings)
+        return self._engine.grips({BODY: self._body}, self._settings)
 
     def _look(self, grasp: Grasp) -> GraspVerdict:
         scene = self._scene

@@ -11,7 +11,7 @@ from proc3s_tabletop.engine.values import ALOFT
 from proc3s_tabletop.objects.extents import extent
 from proc3s_tabletop.robot import frames as poses
 from proc3s_tabletop.robot.frames import Frame
-from proc3s_tabletop.robot.settings import LEVER, ReferenceSettings
+from proc3s_tabletop.robot.settings import LEVER
 from proc3s_tabletop.sentences import called
 from proc3s_tabletop.tasks.selection import select, selector
 from proc3s_tabletop.telemetry import TABLE, displacement
@@ -43,7 +43,7 @@ def on_another(
     if not high:
         return Score(False, "everything lies on the table")
     named = {name: known[o.category] for name, o in objects.items()}
-    scene = engine().hand_scene(named, ReferenceSettings())
+    scene = engine().hand_scene(named, engine().settings())
     try:
         before = {name: poses.frame(o.pose) for name, o in objects.items()}
         _let_go(scene, before, seconds)

@@ -1,0 +1,83 @@
+"""How far bodies are from one another: a look at spheres around them first, and at their geoms then."""
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+import mujoco
+import numpy as np
+
+from proc3s import FloatArray
+from proc3s_mujoco.parts import Indices
+from proc3s_mujoco.specs import TABLE
+from proc3s_tabletop.telemetry import Clearance
+
+if TYPE_CHECKING:
+    from proc3s_mujoco.simulation import TableScene
+
+_TOUCHING = 0.001
+"""Bodies nearer than this hold one another, m."""
+
+
+def distance(scene: "TableScene", one: Indices, other: Indices, most: float) -> tuple[float, int] | None:
+    """The smallest distance of geoms (n,) to geoms (m,), and the geom of the first that has it.
+
+    Negative where they overlap; None where it is `most` or more, metres.
+    """
+    least = _at_least(scene, one, other)
+    found: tuple[float, int] | None = None
+    model, data = scene.state.model, scene.state.data
+    for k in np.argsort(least, axis=None, kind="stable").tolist():
+        if least.flat[k] >= most:
+            break
+        a, b = int(one[k // len(other)]), int(other[k % len(other)])
+        apart = mujoco.mj_geomDistance(model, data, a, b, max(most, 0.0) + 1e-6, None)
+        if apart < most:
+            most, found = apart, (apart, a)
+    return found
+
+
+def _at_least(scene: "TableScene", one: Indices, other: Indices) -> FloatArray:
+    """Distances (n, m) of the spheres around geoms; the table begins at z = 0."""
+    model, data = scene.state.model, scene.state.placed()
+    if len(other) == 1 and other[0] == scene.parts.table:
+        lowest: FloatArray = data.geom_xpos[one, 2:] - model.geom_rbound[one, None]
+        return lowest
+    apart = np.linalg.norm(data.geom_xpos[one, None] - data.geom_xpos[other], axis=2)
+    spheres: FloatArray = apart - model.geom_rbound[one, None] - model.geom_rbound[other]
+    return spheres
+
+
+def _close(scene: "TableScene", one: str, other: str, most: float) -> bool:
+    """Whether two objects are nearer than `most`, metres."""
+    a, b = scene.parts.things[one], scene.parts.things[other]
+    here, there = (scene.state.data.qpos[thing.position][:3] for thing in (a, b))
+    if np.linalg.norm(here - there) - a.radius - b.radius >= most:
+        return False
+    return distance(scene, a.geoms, b.geoms, most) is not None
+
+
+def near(scene: "TableScene", name: str, distance: float) -> list[str]:
+    """The other objects that are this close to one, metres."""
+    return [other for other in scene.shapes if other != name and _close(scene, name, other, distance)]
+
+
+def company(scene: "TableScene", names: Iterable[str]) -> set[str]:
+    """The objects among `names`, and all that touch them, directly or through others."""
+    found: set[str] = set()
+    todo = [name for name in names if name in scene.shapes]
+    while todo:
+        name = todo.pop()
+        if name not in found:
+            found.add(name)
+            todo += [other for other in near(scene, name, _TOUCHING) if other not in found]
+    return found
+
+
+def hand_clearances(scene: "TableScene", gripped: str | None = None) -> dict[str, Clearance]:
+    """The smallest distance of the robot to everything near but the gripped object, by name."""
+    parts, most = scene.parts, scene.settings.near
+    geoms = {name: thing.geoms for name, thing in parts.things.items()} | {TABLE: np.array([parts.table])}
+    found = {
+        name: distance(scene, parts.robot, theirs, most) for name, theirs in geoms.items() if name != gripped
+    }
+    return {name: Clearance(hit[0], parts.part[hit[1]], name) for name, hit in found.items() if hit}

