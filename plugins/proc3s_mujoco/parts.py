@@ -69,14 +69,8 @@ class Parts:
 def _thing(model: Any, number: int, name: str) -> Thing:
     body = model.body(THING + name)
     joint = model.joint(int(body.jntadr[0]))
-    position, velocity = int(joint.qposadr[0]), int(joint.dofadr[0])
+    at, moves = int(joint.qposadr[0]), int(joint.dofadr[0])
+    position, velocity = slice(at, at + 7), slice(moves, moves + 6)
     geoms = np.flatnonzero(model.geom_bodyid == body.id)
     radius = (np.linalg.norm(model.geom_pos[geoms], axis=1) + model.geom_rbound[geoms]).max()
-    return Thing(
-        number,
-        int(body.id),
-        geoms,
-        slice(position, position + 7),
-        slice(velocity, velocity + 6),
-        float(radius),
-    )
+    return Thing(number, int(body.id), geoms, position, velocity, float(radius))

@@ -28,7 +28,7 @@ LENGTHS = {
     "wrist_2_link": (0.0, 0.1263, 0.0),
     "wrist_3_link": (0.0, 0.0, 0.0997),
 }
-"""Where links begin in the link before, m: the model has them to a millimetre, the maker's data to a tenth."""
+"""Where links begin in the link before, m: the model has them to a millimetre, its maker to a tenth."""
 FLANGE = (0.0, 0.0996, 0.0)
 """Where tool0 is on the last link, m."""
 

@@ -11,9 +11,9 @@ from PIL import Image
 from test_world import PICK, PLACE, START
 
 from proc3s import Pose
-from proc3s_tabletop.bullet.pictures import SIZE, Studio
+from proc3s_tabletop.bullet.pictures import Studio
 from proc3s_tabletop.bullet.scene import Snapshot
-from proc3s_tabletop.bullet.visuals import UNKNOWN, color_of
+from proc3s_tabletop.engine.looks import SIZE, UNKNOWN, color_of
 from proc3s_tabletop.objects.body import Body
 from proc3s_tabletop.objects.shapes import Bowl, Box, Cylinder
 from proc3s_tabletop.robot.frames import Frame

@@ -1,31 +1,19 @@
-"""How bodies look: what the renderer draws of them, and the colours that names stand for."""
+"""How bodies look: what the renderer draws of them."""
 
 import math
 from itertools import pairwise
 from pathlib import Path
-from typing import TypeAlias
 
 import numpy as np
 
 from proc3s import FloatArray
 from proc3s_tabletop.bullet.client import Client
 from proc3s_tabletop.bullet.collision_shapes import collision_shape, written
+from proc3s_tabletop.engine.looks import Color
 from proc3s_tabletop.objects.shapes import Bowl, Cylinder, Mesh, Shape, Surface
-
-Color: TypeAlias = tuple[float, float, float, float]
 
 SEGMENTS = 48
 """Of a bowl around its axis."""
-UNKNOWN = (0.6, 0.6, 0.6, 1.0)
-"""For a colour that nobody knows."""
-
-
-def color_of(name: str) -> Color:
-    """RGBA of a colour by its name; pure colours are toned down where matplotlib has a softer one."""
-    from matplotlib.colors import is_color_like, to_rgba
-
-    candidates = ["gold"] if name == "yellow" else [f"tab:{name}", name]
-    return next((to_rgba(candidate) for candidate in candidates if is_color_like(candidate)), UNKNOWN)
 
 
 def create(shape: Shape, client: Client, folder: Path, color: Color) -> int:
