@@ -67,7 +67,7 @@ class Studio:
         from PIL import Image
 
         width, height = looks.SIZE
-        pixels = np.stack(np.mgrid[0:height, 0:width], axis=-1).reshape(-1, 2).astype(float)
+        pixels = np.moveaxis(np.mgrid[0:height, 0:width], 0, -1).reshape(-1, 2).astype(float)
         drawn, normals = self._seen(pixels)
         at = np.flatnonzero(_edges(normals.reshape(height, width, 3)))
         finer, _ = self._seen((pixels[at] + CORNERS[:, None]).reshape(-1, 2))
