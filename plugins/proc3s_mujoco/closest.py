@@ -1,24 +1,21 @@
 """How far bodies are from one another: a look at spheres around them first, and at their geoms then."""
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
 
 import mujoco
 import numpy as np
 
 from proc3s import FloatArray
 from proc3s_mujoco.parts import Indices
+from proc3s_mujoco.simulation import TableScene
 from proc3s_mujoco.specs import TABLE
 from proc3s_tabletop.telemetry import Clearance
-
-if TYPE_CHECKING:
-    from proc3s_mujoco.simulation import TableScene
 
 _TOUCHING = 0.001
 """Bodies nearer than this hold one another, m."""
 
 
-def distance(scene: "TableScene", one: Indices, other: Indices, most: float) -> tuple[float, int] | None:
+def distance(scene: TableScene, one: Indices, other: Indices, most: float) -> tuple[float, int] | None:
     """The smallest distance of geoms (n,) to geoms (m,), and the geom of the first that has it.
 
     Negative where they overlap; None where it is `most` or more, metres.
@@ -36,7 +33,7 @@ def distance(scene: "TableScene", one: Indices, other: Indices, most: float) -> 
     return found
 
 
-def _at_least(scene: "TableScene", one: Indices, other: Indices) -> FloatArray:
+def _at_least(scene: TableScene, one: Indices, other: Indices) -> FloatArray:
     """Distances (n, m) of the spheres around geoms; the table begins at z = 0."""
     model, data = scene.state.model, scene.state.placed()
     if len(other) == 1 and other[0] == scene.parts.table:
@@ -47,7 +44,7 @@ def _at_least(scene: "TableScene", one: Indices, other: Indices) -> FloatArray:
     return spheres
 
 
-def _close(scene: "TableScene", one: str, other: str, most: float) -> bool:
+def _close(scene: TableScene, one: str, other: str, most: float) -> bool:
     """Whether two objects are nearer than `most`, metres."""
     a, b = scene.parts.things[one], scene.parts.things[other]
     here, there = (scene.state.data.qpos[thing.position][:3] for thing in (a, b))
@@ -56,12 +53,12 @@ def _close(scene: "TableScene", one: str, other: str, most: float) -> bool:
     return distance(scene, a.geoms, b.geoms, most) is not None
 
 
-def near(scene: "TableScene", name: str, distance: float) -> list[str]:
+def near(scene: TableScene, name: str, distance: float) -> list[str]:
     """The other objects that are this close to one, metres."""
     return [other for other in scene.shapes if other != name and _close(scene, name, other, distance)]
 
 
-def company(scene: "TableScene", names: Iterable[str]) -> set[str]:
+def company(scene: TableScene, names: Iterable[str]) -> set[str]:
     """The objects among `names`, and all that touch them, directly or through others."""
     found: set[str] = set()
     todo = [name for name in names if name in scene.shapes]
@@ -73,7 +70,7 @@ def company(scene: "TableScene", names: Iterable[str]) -> set[str]:
     return found
 
 
-def hand_clearances(scene: "TableScene", gripped: str | None = None) -> dict[str, Clearance]:
+def hand_clearances(scene: TableScene, gripped: str | None = None) -> dict[str, Clearance]:
     """The smallest distance of the robot to everything near but the gripped object, by name."""
     parts, most = scene.parts, scene.settings.near
     geoms = {name: thing.geoms for name, thing in parts.things.items()} | {TABLE: np.array([parts.table])}

@@ -2,18 +2,16 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import mujoco
 import numpy as np
 
 from proc3s import FloatArray
 from proc3s_mujoco.parts import ROBOT
+from proc3s_mujoco.simulation import TableScene
 from proc3s_tabletop.engine.values import Touch
 from proc3s_tabletop.telemetry import Clearance, Vector
-
-if TYPE_CHECKING:
-    from proc3s_mujoco.simulation import TableScene
 
 
 @dataclass(frozen=True)
@@ -26,7 +24,7 @@ class Contact:
     normal: Vector
 
 
-def robot_contact(scene: "TableScene", gripped: str | None = None) -> Clearance | None:
+def robot_contact(scene: TableScene, gripped: str | None = None) -> Clearance | None:
     """The deepest contact of the robot, with itself too; the hand may touch the object it grips."""
     found, parts = scene.state.data.contact, scene.parts
     one, other = found.geom.T
@@ -44,7 +42,7 @@ def robot_contact(scene: "TableScene", gripped: str | None = None) -> Clearance 
     return Clearance(float(found.dist[k]), parts.part[a], parts.called(b))
 
 
-def of_thing(scene: "TableScene", name: str) -> Iterator[Contact]:
+def of_thing(scene: TableScene, name: str) -> Iterator[Contact]:
     """The contacts of an object, those with the robot apart."""
     found, parts = scene.state.data.contact, scene.parts
     owner, number = parts.owner[found.geom], parts.things[name].number
@@ -55,7 +53,12 @@ def of_thing(scene: "TableScene", name: str) -> Iterator[Contact]:
         yield Contact(k, float(found.dist[k]), parts.called(int(found.geom[k, second])), (x, y, z))
 
 
-def held_touches(scene: "TableScene", name: str) -> list[Touch]:
+def touched(scene: TableScene, name: str) -> set[str]:
+    """What an object touches after a tick, by name; the table is TABLE."""
+    return {contact.other for contact in of_thing(scene, name) if contact.distance < 0}
+
+
+def held_touches(scene: TableScene, name: str) -> list[Touch]:
     """What an object in hand touches, the robot apart."""
     depth = -scene.settings.touch
     return [
@@ -65,7 +68,7 @@ def held_touches(scene: "TableScene", name: str) -> list[Touch]:
     ]
 
 
-def grip_force(scene: "TableScene", name: str) -> float:
+def grip_force(scene: TableScene, name: str) -> float:
     """Normal force of the side of the hand that presses an object less, newtons."""
     pairs, parts = scene.state.data.contact.geom, scene.parts
     mine = (parts.owner[pairs] == parts.things[name].number).any(axis=1)

@@ -1,19 +1,15 @@
 """What presses on what while time passes: contacts that carry a force, by name."""
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from proc3s_mujoco.contacts import force, grip_force, of_thing
-
-if TYPE_CHECKING:
-    from proc3s_mujoco.scene import Scene
+from proc3s_mujoco.simulation import TableScene
 
 GUARD = 2.0
 """A force that stops a guarded descent, newtons: three times the weight of a block."""
 
 
-def between_pads(scene: "Scene") -> str | None:
+def between_pads(scene: TableScene) -> str | None:
     """The object that both sides of the hand press, the hardest first."""
     forces = {name: grip_force(scene, name) for name in scene.shapes}
     return _hardest({name: force for name, force in forces.items() if force > 0})
@@ -25,7 +21,7 @@ class Guard:
     `support` is then what the load has met, if it was the load.
     """
 
-    def __init__(self, scene: "Scene", held: str | None) -> None:
+    def __init__(self, scene: TableScene, held: str | None) -> None:
         self._scene, self._held = scene, held
         self.support: str | None = None
 
@@ -47,7 +43,7 @@ class Guard:
         return sum(force(scene.state, k) for k in np.flatnonzero(on_hand).tolist())
 
 
-def support(scene: "Scene", name: str) -> str | None:
+def support(scene: TableScene, name: str) -> str | None:
     """What pushes an object up hardest."""
     return _hardest(_presses(scene, name))
 
@@ -56,7 +52,7 @@ def _hardest(forces: dict[str, float]) -> str | None:
     return max(forces, key=lambda n: forces[n], default=None)
 
 
-def _presses(scene: "Scene", name: str | None) -> dict[str, float]:
+def _presses(scene: TableScene, name: str | None) -> dict[str, float]:
     """The bodies that press an object, the robot apart, and the upward part of how hard they do, newtons."""
     forces: dict[str, float] = {}
     for contact in of_thing(scene, name) if name else ():

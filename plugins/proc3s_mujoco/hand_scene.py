@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from proc3s_mujoco import specs
+from proc3s_mujoco import contacts, rays, specs
 from proc3s_mujoco.closest import distance
 from proc3s_mujoco.hand import FloatingHand
 from proc3s_mujoco.parts import Indices
@@ -19,6 +19,11 @@ class HandScene(TableScene):
     """A table with its top at z = 0, the named bodies, and a floating hand."""
 
     robot: FloatingHand
+
+    robot_contact = contacts.robot_contact
+    grip_force = contacts.grip_force
+    touched = contacts.touched
+    cover = rays.cover
 
     def __init__(self, bodies: Mapping[str, Body], settings: ReferenceSettings) -> None:
         super().__init__(bodies, settings, specs.add_floating_hand, FloatingHand)

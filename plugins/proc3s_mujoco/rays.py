@@ -1,20 +1,16 @@
 """How much of the pads an object covers."""
 
-from typing import TYPE_CHECKING
-
 import mujoco
 import numpy as np
 
 from proc3s_mujoco.shapes import GROUP
+from proc3s_mujoco.simulation import TableScene
 from proc3s_tabletop.engine.grasp_rays import rays
-
-if TYPE_CHECKING:
-    from proc3s_mujoco.simulation import TableScene
 
 ONLY_OBJECTS = np.array([group == GROUP for group in range(mujoco.mjNGROUP)], np.uint8)
 
 
-def cover(scene: "TableScene") -> dict[str, float]:
+def cover(scene: TableScene) -> dict[str, float]:
     """The share of the grid of rays between the pads that meets each object, by name."""
     starts, ends = rays(scene.robot, *scene.robot.pads())
     model, data = scene.state.model, scene.state.placed()

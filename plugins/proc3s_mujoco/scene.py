@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import mujoco
 import numpy as np
 
-from proc3s_mujoco import closest, contacts, forces, specs
+from proc3s_mujoco import closest, contacts, forces, rays, specs
 from proc3s_mujoco.arm import Robot
 from proc3s_mujoco.simulation import TableScene
 from proc3s_tabletop.engine.settle import settle as settled
@@ -14,21 +14,46 @@ from proc3s_tabletop.objects.body import Body
 from proc3s_tabletop.robot.frames import Held, rounded
 from proc3s_tabletop.robot.settings import ReferenceSettings
 
+ASLEEP = 1e-4
+"""What is slower than this for some steps falls asleep, m/s; what begins to topple is faster (measured)."""
+
 
 class Scene(TableScene):
     """A table with its top at z = 0, the robot, and the named bodies."""
 
     robot: Robot
 
+    robot_contact = contacts.robot_contact
+    grip_force = contacts.grip_force
+    touched = contacts.touched
     held_touches = contacts.held_touches
+    cover = rays.cover
+    near = closest.near
     hand_clearances = closest.hand_clearances
     company = closest.company
     between_pads = forces.between_pads
-    support = forces.support
     settle = settled
 
     def __init__(self, bodies: Mapping[str, Body], settings: ReferenceSettings) -> None:
         super().__init__(bodies, settings, specs.add_robot, Robot)
+        self._let_sleep(True)
+
+    def _let_sleep(self, on: bool) -> None:
+        """Whether time passes without objects that are at rest until something touches them.
+
+        The robot never sleeps, as nothing does that has motors.
+        """
+        option, flag = self.state.model.opt, int(mujoco.mjtEnableBit.mjENBL_SLEEP)
+        option.enableflags = option.enableflags | flag if on else option.enableflags & ~flag
+        option.sleep_tolerance = ASLEEP
+
+    def support(self, name: str) -> str | None:
+        """What pushes an object up hardest."""
+        # Contacts of what sleeps are not looked for.
+        self._let_sleep(False)
+        mujoco.mj_forward(self.state.model, self.state.data)
+        self._let_sleep(True)
+        return forces.support(self, name)
 
     def guard(self, held: str | None) -> forces.Guard:
         """A guard of a descent with an object in hand, or without."""

@@ -6,7 +6,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from proc3s_mujoco import closest, contacts, rays, specs
+from proc3s_mujoco import specs
 from proc3s_mujoco.bits import MEETS, ROBOT, Kind
 from proc3s_mujoco.hand import Hand, State
 from proc3s_mujoco.parts import Parts
@@ -24,11 +24,6 @@ class TableScene(NamedBodies):
     """
 
     robot: Hand
-
-    cover = rays.cover
-    robot_contact = contacts.robot_contact
-    grip_force = contacts.grip_force
-    near = closest.near
 
     def __init__(
         self,
@@ -120,10 +115,6 @@ class TableScene(NamedBodies):
     def detect(self) -> None:
         """Find all contacts where everything is now, without letting time pass."""
         mujoco.mj_collision(self.state.model, self.state.placed())
-
-    def touched(self, name: str) -> set[str]:
-        """What an object touches after a tick, by name; the table is TABLE."""
-        return {touch.other for touch in contacts.of_thing(self, name) if touch.distance < 0}
 
 
 def _parked(k: int) -> Vector:

@@ -15,18 +15,13 @@ ITERATIONS = 200
 TORQUES = (150.0, 150.0, 150.0, 28.0, 28.0, 28.0)
 """Of the joints, Nm (UR5e, URDF of airo-models)."""
 
-JOINT_SPEED = 2.0
-"""Of the fastest joint half-way through a free move, rad/s; the UR5e allows 3.1."""
 LINE_SPEED = 0.4
 """Of the hand half-way up or down a line, m/s."""
 GUARDED_SPEED = 0.2
 """The same where the hand is to stop at the first contact, m/s."""
 
-STILL_JOINT = 0.002
-"""rad/s; the arm stands when all joints are slower."""
-STILL_MOST = 60
 FINGERS_MOST = 96
-"""Ticks that the arm and the fingers are given to come to rest."""
+"""Ticks that the fingers are given to come to rest."""
 FINGERS_LEAST = 12
 """Ticks until the fingers have started."""
 NEAR = 1e-4
@@ -46,7 +41,7 @@ class Motors:
     def to(self, q: FloatArray) -> None:
         """Go straight in joint space to angles (6,) and wait until the arm stands."""
         path = np.array([self._robot.q, q])
-        self._follow(path, np.array([0.0, 1.0]), np.abs(path[1] - path[0]).max() / JOINT_SPEED)
+        self._follow(path, np.array([0.0, 1.0]), np.abs(path[1] - path[0]).max() / self._settings.arm_speed)
         self._wait()
 
     def down(self, line: Line, guard: Callable[[], bool] | None = None) -> bool:
@@ -98,8 +93,8 @@ class Motors:
 
     def _wait(self) -> None:
         """Let time pass until the arm stands, and note where."""
-        for _ in range(STILL_MOST):
+        for _ in range(self._settings.arm_still_most):
             self._scene.tick()
-            if np.abs(self._robot.read_arm()[1]).max() < STILL_JOINT:
+            if np.abs(self._robot.read_arm()[1]).max() < self._settings.arm_still:
                 break
         self._robot.q = self._robot.read_arm()[0]

@@ -93,6 +93,13 @@ class ReferenceSettings:
     close_least: int = 12
     """...having had time to start."""
 
+    arm_speed: float = 2.0
+    """Of the fastest joint half-way through a free move of a driven arm, rad/s; the UR5e allows 3.1."""
+    arm_still: float = 0.002
+    """rad/s; a driven arm stands when all its joints are slower..."""
+    arm_still_most: int = 60
+    """...or after so many ticks."""
+
     shake: tuple[tuple[tuple[float, float, float], int], ...] = (
         ((0.0, 0.0, -4.9), 24),
         ((4.9, 0.0, 0.0), 8),
