@@ -5,10 +5,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from proc3s import FloatArray
+from proc3s_mujoco.profile import MENAGERIE
 from proc3s_tabletop.engine.grips import GripSimulator
 from proc3s_tabletop.engine.snapshot import Snapshot
 from proc3s_tabletop.extra import extra
 from proc3s_tabletop.objects.body import Body
+from proc3s_tabletop.robot.hand_profile import HandProfile
 from proc3s_tabletop.robot.settings import ReferenceSettings
 
 if TYPE_CHECKING:
@@ -37,6 +39,10 @@ class MujocoEngine:
     def settings(self) -> ReferenceSettings:
         """The constants of a reference world in this engine."""
         return SETTINGS
+
+    def profile(self) -> HandProfile:
+        """What of the hand meets things on its way straight down."""
+        return MENAGERIE
 
     def scene(self, bodies: Mapping[str, Body], settings: ReferenceSettings) -> "Scene":
         """A table with the robot and these bodies."""

@@ -1,10 +1,11 @@
 """The scene: table, robot and bodies in one model, put into a snapshot so that nothing earlier matters."""
 
 from collections.abc import Mapping
+from typing import Any
 
-import mujoco
 import numpy as np
 
+import mujoco
 from proc3s_mujoco import closest, contacts, forces, rays, specs
 from proc3s_mujoco.arm import Robot
 from proc3s_mujoco.simulation import TableScene
@@ -14,6 +15,7 @@ from proc3s_tabletop.objects.body import Body
 from proc3s_tabletop.robot.frames import Held, rounded
 from proc3s_tabletop.robot.settings import ReferenceSettings
 
+SLEEP = int(mujoco.mjtEnableBit.mjENBL_SLEEP)
 ASLEEP = 1e-4
 """What is slower than this for some steps falls asleep, m/s; what begins to topple is faster (measured)."""
 
@@ -35,24 +37,15 @@ class Scene(TableScene):
     settle = settled
 
     def __init__(self, bodies: Mapping[str, Body], settings: ReferenceSettings) -> None:
-        super().__init__(bodies, settings, specs.add_robot, Robot)
-        self._let_sleep(True)
-
-    def _let_sleep(self, on: bool) -> None:
-        """Whether time passes without objects that are at rest until something touches them.
-
-        The robot never sleeps, as nothing does that has motors.
-        """
-        option, flag = self.state.model.opt, int(mujoco.mjtEnableBit.mjENBL_SLEEP)
-        option.enableflags = option.enableflags | flag if on else option.enableflags & ~flag
-        option.sleep_tolerance = ASLEEP
+        super().__init__(bodies, settings, _add_robot, Robot)
 
     def support(self, name: str) -> str | None:
         """What pushes an object up hardest."""
         # Contacts of what sleeps are not looked for.
-        self._let_sleep(False)
+        option = self.state.model.opt
+        option.enableflags &= ~SLEEP
         mujoco.mj_forward(self.state.model, self.state.data)
-        self._let_sleep(True)
+        option.enableflags |= SLEEP
         return forces.support(self, name)
 
     def guard(self, held: str | None) -> forces.Guard:
@@ -78,3 +71,13 @@ class Scene(TableScene):
         held = self.held and Held(self.held.name, rounded(self.held.frame, 9))
         q = tuple(round(float(angle), 10) for angle in self.robot.q)
         return Snapshot(frames, q, round(self.robot.angle, 9), held)
+
+
+def _add_robot(spec: Any, settings: ReferenceSettings) -> None:
+    """The robot, on a table where time passes without objects at rest until something touches them.
+
+    The robot itself never sleeps, as nothing does that has motors.
+    """
+    specs.add_robot(spec, settings)
+    spec.option.enableflags |= SLEEP
+    spec.option.sleep_tolerance = ASLEEP

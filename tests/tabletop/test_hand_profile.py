@@ -5,7 +5,7 @@ import pytest
 
 from proc3s_tabletop.bullet.client import Client
 from proc3s_tabletop.bullet.hand import FloatingHand
-from proc3s_tabletop.robot.hand_profile import columns
+from proc3s_tabletop.robot.hand_profile import AIRO
 from proc3s_tabletop.robot.settings import TCP, ReferenceSettings
 
 NEXT_TO_THE_EDGE = 5e-4
@@ -42,18 +42,18 @@ def opened(hand, gap):
 @pytest.mark.parametrize("gap", np.linspace(0.002, 0.086, 15).round(4).tolist())
 def test_every_column_lies_inside_the_hand(hand, gap):
     opened(hand, gap)
-    for column in columns(gap):
+    for column in AIRO.columns(gap):
         assert highest(hand, column) <= column[3] + 2e-4, column
 
 
 def test_a_column_beside_the_hand_would_be_noticed(hand):
     opened(hand, 0.052)
-    pad = columns(0.052)[0]
+    pad = AIRO.columns(0.052)[0]
     assert highest(hand, pad - [0.005, 0.005, 0.0, 0.0]) > pad[3] + 0.01
 
 
 def test_the_columns_are_as_wide_apart_as_the_pads():
     for gap in (0.01, 0.04, 0.08):
-        found = columns(gap)
+        found = AIRO.columns(gap)
         assert found[found[:, 0] > 0.003][:, 0].min() == pytest.approx(gap / 2)
         assert found[:, 1].max() == pytest.approx(-found[:, 0].min())

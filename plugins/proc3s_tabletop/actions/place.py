@@ -137,7 +137,7 @@ def release(
     open_fingers(attempt, stand, name)
     above = line.q[line.heights > stand.height + 1e-9][::-1]
     follow(attempt, np.vstack([stand.q, above]), "release")
-    near = scene.company([name, *scene.near(name, attempt.settings.fall)])
+    near = scene.company([name, *scene.near(name, attempt.settings.fall + drop)])
     rest(attempt, grips, [name, *(other for other in scene.names if other in near - {name})])
     compare(attempt, baseline, name, drop)
     robot.put_arm(line.q[0])

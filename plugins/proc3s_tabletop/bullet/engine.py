@@ -11,6 +11,7 @@ from proc3s_tabletop.bullet.scene import Scene
 from proc3s_tabletop.engine.grips import GripSimulator
 from proc3s_tabletop.engine.snapshot import Snapshot
 from proc3s_tabletop.objects.body import Body
+from proc3s_tabletop.robot.hand_profile import AIRO, HandProfile
 from proc3s_tabletop.robot.settings import ReferenceSettings
 
 
@@ -24,6 +25,10 @@ class BulletEngine:
     def settings(self) -> ReferenceSettings:
         """The constants of a reference world in this engine."""
         return ReferenceSettings()
+
+    def profile(self) -> HandProfile:
+        """What of the hand meets things on its way straight down."""
+        return AIRO
 
     def scene(self, bodies: Mapping[str, Body], settings: ReferenceSettings) -> Scene:
         """A table with the robot and these bodies."""

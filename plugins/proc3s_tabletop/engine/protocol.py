@@ -12,6 +12,7 @@ from proc3s_tabletop.engine.snapshot import Snapshot
 from proc3s_tabletop.engine.values import Grip, Lies, Rest, Touch
 from proc3s_tabletop.objects.body import Body
 from proc3s_tabletop.robot.frames import Frame, Held
+from proc3s_tabletop.robot.hand_profile import HandProfile
 from proc3s_tabletop.robot.settings import ReferenceSettings
 from proc3s_tabletop.telemetry import Clearance, Quaternion, Vector
 
@@ -240,6 +241,9 @@ class Engine(Protocol):
 
     def settings(self) -> ReferenceSettings:
         """The constants of a reference world in this engine."""
+
+    def profile(self) -> HandProfile:
+        """What of the hand meets things on its way straight down."""
 
     def scene(self, bodies: Mapping[str, Body], settings: ReferenceSettings) -> Simulation:
         """A table with the robot and these bodies."""

@@ -1,5 +1,6 @@
 """What the vectorised screens share: the plans still looked at, and the violations found in the others."""
 
+import functools
 from collections.abc import Callable, Collection, Mapping
 from typing import Any, TypeAlias
 
@@ -8,6 +9,8 @@ import numpy as np
 from proc3s import Domain, FloatArray, PlanBatch, State, Violation, sentence
 from proc3s.domain.plan_batch import Signature
 from proc3s.specs.domain import ConstraintSpec
+from proc3s_tabletop.engine.choice import engine
+from proc3s_tabletop.robot.hand_profile import HandProfile
 from proc3s_tabletop.screens.layout import Rows
 from proc3s_tabletop.sentences import called
 from proc3s_tabletop.skills import pick, pick_object, place, place_object
@@ -35,13 +38,18 @@ class BatchScreening:
 
     def __init__(self, state: State, batch: PlanBatch, domain: Domain) -> None:
         self._objects: Mapping[str, Any] = state.objects  # type: ignore[attr-defined]
-        self._batch = batch
+        self._batch, self._domain = batch, domain
         self._constraints = [(domain.margins[n], spec) for n, spec in domain.spec.constraints.items()]
         self._skills = [skill_of(domain, signature) for signature in batch.signatures]
         self._lengths = np.diff(batch.start)
         self.open = self._lengths > 0
         """The plans still looked at."""
         self.verdicts: Verdicts = [None] * len(batch)
+
+    @functools.cached_property
+    def hand(self) -> HandProfile:
+        """The hand as the world's engine has it."""
+        return engine(self._domain.spec.world.args.get("engine")).profile()
 
     @property
     def steps(self) -> range:

@@ -5,7 +5,7 @@ import numpy as np
 from proc3s import FloatArray
 from proc3s_tabletop import sentences
 from proc3s_tabletop.constraints import PAD_WIDTH, UNMEASURED, collision, grasp
-from proc3s_tabletop.robot.hand_profile import GAPS, WIDEST, columns
+from proc3s_tabletop.robot.hand_profile import GAPS, WIDEST
 from proc3s_tabletop.robot.settings import INSIDE, ReferenceSettings
 from proc3s_tabletop.screens.batch import BAND, BatchScreening
 from proc3s_tabletop.screens.layout import Bools, Layout, Rows
@@ -47,7 +47,7 @@ def _empty(screening: BatchScreening, layout: Layout, step: int, rows: Rows, at:
 
 def _free_way_down(screening: BatchScreening, layout: Layout, step: int, rows: Rows, at: FloatArray) -> Bools:
     """Whether the open hand may come down beside everything."""
-    depth = layout.met(rows, at, columns(OPEN), SETTINGS.hover) - BAND
+    depth = layout.met(rows, at, screening.hand.columns(OPEN), SETTINGS.hover) - BAND
     met: Bools = depth.max(axis=1, initial=-np.inf) > 0
     if met.any():
         _reject_ways_down(screening, layout, step, rows[met], at[met], depth[met])
@@ -92,7 +92,7 @@ def reject_contacts(
 
 def _free_table(screening: BatchScreening, layout: Layout, step: int, rows: Rows, at: FloatArray) -> Bools:
     """Whether the tips of the open hand may stay above the table."""
-    height = at[:, 2] + columns(OPEN)[:, 3].min() + BAND
+    height = at[:, 2] + screening.hand.columns(OPEN)[:, 3].min() + BAND
     low: Bools = height < 0
     screening.reject(
         step,

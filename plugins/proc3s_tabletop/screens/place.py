@@ -7,7 +7,6 @@ import numpy as np
 from proc3s import FloatArray
 from proc3s_tabletop import sentences
 from proc3s_tabletop.constraints import UNMEASURED, collision, placement
-from proc3s_tabletop.robot.hand_profile import columns
 from proc3s_tabletop.robot.settings import TABLE_BOUNDS, ReferenceSettings
 from proc3s_tabletop.screens.batch import BAND, BatchScreening
 from proc3s_tabletop.screens.layout import Bools, Layout, Rows
@@ -135,7 +134,9 @@ def _clear_of_hand(screening: BatchScreening, layout: Layout, step: int, descent
         for k in np.unique(descent.which[free]):
             mine = np.flatnonzero(free & (descent.which == k))
             gap = 2 * layout.bodies.outer[k, 1] + margin
-            depth = layout.met(descent.rows[mine], at[mine], columns(gap), SETTINGS.hover) - BAND
+            depth = (
+                layout.met(descent.rows[mine], at[mine], screening.hand.columns(gap), SETTINGS.hover) - BAND
+            )
             hit = depth.max(axis=1, initial=-np.inf) > 0
             free[mine[hit]] = False
             reject_contacts(screening, layout, step, descent.rows[mine[hit]], depth[hit], stage)
