@@ -74,8 +74,8 @@ class Hand(ABC):
         return tuple(self.state.data.qpos[self._joints].tolist())
 
     def drive_fingers(self, angle: float) -> None:
-        """Let the motor of the fingers turn them towards an angle, from where it was told to have them."""
-        self._target = angle
+        """Let the motor of the fingers turn them towards an angle, from where they are."""
+        self._target, self._command = angle, self.read_fingers()[0]
 
     def hold_fingers(self, angle: float) -> None:
         """Let the motor of the fingers turn them towards an angle at once."""

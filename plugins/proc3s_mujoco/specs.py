@@ -15,6 +15,9 @@ ARM, HAND, TOOL, TABLE = "arm/", "hand/", "tool0", "table"
 
 STEPS = 2
 """In a tick: contacts of the pads are as stiff as steps of 2 ms allow."""
+NOSLIP = 5
+"""Iterations that take the creeping out of friction; without them round things creep out of the hand in a
+second or two (measured)."""
 GRAVITY = (0.0, 0.0, -9.8)
 """m/s2, as in the other engine."""
 
@@ -47,6 +50,7 @@ def _set_options(spec: Any, settings: ReferenceSettings) -> None:
     option.timestep = settings.tick / STEPS
     option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
     option.cone, option.impratio = mujoco.mjtCone.mjCONE_ELLIPTIC, 10
+    option.noslip_iterations = NOSLIP
     option.gravity = GRAVITY
 
 
@@ -88,6 +92,9 @@ def _add_hand(spec: Any, tool: Any, settings: ReferenceSettings, visuals: bool) 
     for body in hand.bodies:
         for geom in body.geoms:
             mark_solid(geom, pads.get(body.name, Kind.HAND))
+            if body.name in pads:
+                # An area resists being turned on, a point of contact does not: by the model's coefficient.
+                geom.condim = 4
     spec.attach(hand, prefix=HAND, frame=tool.add_frame(pos=[0.0, 0.0, -COUPLING]))
 
 
