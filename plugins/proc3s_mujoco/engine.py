@@ -2,13 +2,11 @@
 
 import importlib
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from proc3s import FloatArray
 from proc3s_mujoco.profile import MENAGERIE
 from proc3s_tabletop.engine.grips import GripSimulator
-from proc3s_tabletop.engine.snapshot import Snapshot
 from proc3s_tabletop.extra import extra
 from proc3s_tabletop.objects.body import Body
 from proc3s_tabletop.robot.hand_profile import HandProfile
@@ -16,6 +14,7 @@ from proc3s_tabletop.robot.settings import ReferenceSettings
 
 if TYPE_CHECKING:
     from proc3s_mujoco.hand_scene import HandScene
+    from proc3s_mujoco.pictures import Studio
     from proc3s_mujoco.scene import Scene
 
 SETTINGS = ReferenceSettings(
@@ -70,10 +69,8 @@ class MujocoEngine:
 
         return landing.landed(pieces, turn)
 
-    def draw(
-        self, bodies: Mapping[str, Body], colors: Mapping[str, str], film: Sequence[Snapshot], path: Path
-    ) -> None:
-        """Write the last snapshot to `path`, and every one beside it with `-step0`, `-step1`, ... ."""
-        from proc3s_mujoco.pictures import draw
+    def studio(self, bodies: Mapping[str, Body], colors: Mapping[str, str]) -> "Studio":
+        """A table with the robot and these bodies to be drawn; colours are names."""
+        from proc3s_mujoco.pictures import Studio
 
-        draw(bodies, colors, film, path)
+        return Studio(bodies, colors)

@@ -1,7 +1,6 @@
 """Pictures of snapshots, drawn by rays: they need neither a display nor a graphics library."""
 
-from collections.abc import Mapping, Sequence
-from pathlib import Path
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import mujoco
@@ -16,6 +15,7 @@ from proc3s_mujoco.parts import Parts
 from proc3s_tabletop.engine import looks
 from proc3s_tabletop.engine.snapshot import Snapshot
 from proc3s_tabletop.objects.body import Body
+from proc3s_tabletop.objects.shapes import Mesh, Surface
 from proc3s_tabletop.robot.settings import TABLE_BOUNDS, ReferenceSettings
 
 if TYPE_CHECKING:
@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 
 SEEN = np.array([1, 1, 1, 0, 0, 0], np.uint8)
 """The groups of geoms that are drawn: the table, the objects, and what the robot looks like."""
+HIDDEN = 4
+"""A group that is not."""
 CORNERS = np.array([(-0.25, -0.25), (0.25, -0.25), (-0.25, 0.25), (0.25, 0.25)])
 """Where in a pixel at an edge rays are cast, in pixels from its middle."""
 CREASE = 0.9
@@ -31,11 +33,6 @@ NEAR, FAR = 0.002, 100.0
 """What the light meets less than this before a point is the point, and how far rays go, m."""
 SHADE = 0.45
 """Share of the light that reaches the shade."""
-
-
-def draw(bodies: Mapping[str, Body], colors: Mapping[str, str], film: Sequence[Snapshot], path: Path) -> None:
-    """Write the last snapshot to `path`, and every one beside it with `-step0`, `-step1`, ... to its name."""
-    looks.save(film, Studio(bodies, colors).picture, path)
 
 
 class Studio:
@@ -48,6 +45,8 @@ class Studio:
         specs.add_robot(spec, settings, visuals=True)
         for name, body in bodies.items():
             shapes.add(spec, name, body, settings)
+            if isinstance(body.shape, Mesh):
+                _dress(spec, name, body.shape.surface)
         self._state = State(spec.compile())
         self._robot = Robot(self._state, settings)
         self._parts = Parts(self._state.model, bodies)
@@ -62,6 +61,9 @@ class Studio:
         for name, (position, (x, y, z, w)) in snapshot.frames:
             self._state.data.qpos[self._parts.things[name].position] = *position, w, x, y, z
         return self._shot()
+
+    def close(self) -> None:
+        """Nothing that would have to be released."""
 
     def _shot(self) -> "Image":
         from PIL import Image
@@ -110,6 +112,17 @@ def _add_top(spec: Any) -> None:
     middle = [(x0 + x1) / 2, 0.12 - half[1], -looks.THICKNESS / 2]
     top = spec.worldbody.add_geom(name=specs.TABLE, type=mujoco.mjtGeom.mjGEOM_BOX, size=half, pos=middle)
     top.rgba = looks.WOOD
+
+
+def _dress(spec: Any, name: str, surface: Surface) -> None:
+    """Let a body look like its mesh instead of the convex pieces that it is simulated by."""
+    body = spec.body(shapes.THING + name)
+    for piece in body.geoms:
+        piece.group = HIDDEN
+    mesh = spec.add_mesh(name=f"{body.name}/surface")
+    mesh.uservert, mesh.userface = np.ravel(surface.vertices), np.ravel(surface.faces)
+    mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
+    body.add_geom(type=mujoco.mjtGeom.mjGEOM_MESH, meshname=mesh.name, group=shapes.GROUP, contype=0)
 
 
 def _painted(model: Any, parts: Parts, colors: Mapping[str, str]) -> FloatArray:

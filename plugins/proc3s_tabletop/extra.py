@@ -24,7 +24,7 @@ def _way_out(package: str, extra: str) -> str:
     if sys.version_info < _OLDER_PYTHON.get(package, (sys.maxsize,)):
         return f": pip install 'proc3s[{extra}]'"
     return (
-        f", which has no wheel for Python {platform.python_version()}: pip install 'proc3s[mujoco]', which does "
-        "without, or make an environment of Python 3.11 (`uv venv --python 3.11 --seed`) and install "
-        "proc3s[tabletop] there"
+        f", which has no wheel for Python {platform.python_version()}: take another engine by "
+        "pip install 'proc3s[mujoco]', or make an environment of Python 3.11 "
+        "(`uv venv --python 3.11 --seed`) and install proc3s[tabletop] there"
     )

@@ -3,6 +3,7 @@
 import dataclasses
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
+from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,7 +17,8 @@ from proc3s_tabletop.actions.execution import Execution
 from proc3s_tabletop.actions.reference import Reference
 from proc3s_tabletop.actions.table import Table
 from proc3s_tabletop.catalogue.body_specs import bodies_of, body_of
-from proc3s_tabletop.engine import choice
+from proc3s_tabletop.engine import choice, looks
+from proc3s_tabletop.engine.protocol import Studio
 from proc3s_tabletop.engine.snapshot import Snapshot
 from proc3s_tabletop.objects.body import Body
 from proc3s_tabletop.objects.shapes import Mesh
@@ -159,13 +161,17 @@ class TabletopWorld(World[Telemetry]):
 
     def render(self, plan: Plan, path: Path) -> None:
         """Draw the world after a plan, and at `path` with `-step0`, `-step1`, ... where each step led."""
-        colors = {name: getattr(thing, "color", "") for name, thing in self.state.objects.items()}
-        choice.engine(self.engine).draw(self._bodies, colors, self._film, path)
+        with closing(self._studio()) as studio:
+            looks.draw(studio, self._film, path)
 
     def render_marked(self, plan: Plan, path: Path, marked: Sequence[str]) -> None:
         """Draw the world after a plan, with a ring and the name around objects that are marked."""
+        with closing(self._studio()) as studio:
+            looks.draw_marked(studio, self._bodies, self.table.snapshot, path, marked)
+
+    def _studio(self) -> Studio:
         colors = {name: getattr(thing, "color", "") for name, thing in self.state.objects.items()}
-        engine().draw_marked(self._bodies, colors, self.table.snapshot, path, marked)
+        return choice.engine(self.engine).studio(self._bodies, colors)
 
     def facts(self) -> list[str]:
         """How far convex pieces are from their mesh: the 95th percentile of the surfaces' distance."""

@@ -1,7 +1,7 @@
 """PyBullet as an engine of table-tops."""
 
 from collections.abc import Mapping, Sequence
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 from proc3s import FloatArray
 from proc3s_tabletop.bullet import landing
@@ -9,10 +9,12 @@ from proc3s_tabletop.bullet.client import import_pybullet
 from proc3s_tabletop.bullet.hand_scene import HandScene
 from proc3s_tabletop.bullet.scene import Scene
 from proc3s_tabletop.engine.grips import GripSimulator
-from proc3s_tabletop.engine.snapshot import Snapshot
 from proc3s_tabletop.objects.body import Body
 from proc3s_tabletop.robot.hand_profile import AIRO, HandProfile
 from proc3s_tabletop.robot.settings import ReferenceSettings
+
+if TYPE_CHECKING:
+    from proc3s_tabletop.bullet.pictures import Studio
 
 
 class BulletEngine:
@@ -46,23 +48,8 @@ class BulletEngine:
         """Which direction (3,) of a body is down when it has come to rest that was let go with a turn."""
         return landing.landed(pieces, turn)
 
-    def draw(
-        self, bodies: Mapping[str, Body], colors: Mapping[str, str], film: Sequence[Snapshot], path: Path
-    ) -> None:
-        """Write the last snapshot to `path`, and every one beside it with `-step0`, `-step1`, ... ."""
-        from proc3s_tabletop.bullet.pictures import draw
+    def studio(self, bodies: Mapping[str, Body], colors: Mapping[str, str]) -> "Studio":
+        """A table with the robot and these bodies to be drawn; colours are names."""
+        from proc3s_tabletop.bullet.pictures import Studio
 
-        draw(bodies, colors, film, path)
-
-    def draw_marked(
-        self,
-        bodies: Mapping[str, Body],
-        colors: Mapping[str, str],
-        snapshot: Snapshot,
-        path: Path,
-        marked: Sequence[str],
-    ) -> None:
-        """Write a snapshot to `path`, with a ring around the bodies that are marked."""
-        from proc3s_tabletop.bullet.pictures import draw_marked
-
-        draw_marked(bodies, colors, snapshot, path, marked)
+        return Studio(bodies, colors)

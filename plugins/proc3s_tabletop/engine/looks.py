@@ -1,12 +1,17 @@
 """How a table-top looks in every engine: the camera, the light, and the colours that names stand for."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
+from proc3s import FloatArray
+from proc3s_tabletop.engine.protocol import Studio
 from proc3s_tabletop.engine.snapshot import Snapshot
+from proc3s_tabletop.objects.body import Body
+from proc3s_tabletop.objects.extents import rotation
+from proc3s_tabletop.robot.frames import Frame, numbers
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -22,6 +27,8 @@ VIEW_ANGLE = 36.0
 """Upwards, degrees."""
 LIGHT, LIGHT_DISTANCE = (0.4, -0.9, 2.4), 5.0
 """Where the light comes from, and how far away it is, m: nearer, it leaves half of the table in the dark."""
+RED, RIM = (220, 0, 0), 8
+"""Of a mark, and how far it is around what it marks, pixels."""
 SKY, GROUND = (236, 240, 245), (205, 212, 220)
 """The background at the top and at the bottom, RGB."""
 AMBIENT, DIFFUSE = 0.6, 0.5
@@ -47,10 +54,48 @@ def background(height: int) -> Any:
     return np.linspace(SKY, GROUND, height).astype(np.uint8)[:, None]
 
 
-def save(film: Sequence[Snapshot], picture: Callable[[Snapshot], "Image"], path: Path) -> None:
+def draw(studio: Studio, film: Sequence[Snapshot], path: Path) -> None:
     """Write the last snapshot to `path`, and every one beside it with `-step0`, `-step1`, ... to its name."""
     for step, snapshot in enumerate(film):
-        drawn = picture(snapshot)
-        drawn.save(path.with_name(f"{path.stem}-step{step}.png"))
+        picture = studio.picture(snapshot)
+        picture.save(path.with_name(f"{path.stem}-step{step}.png"))
         if step == len(film) - 1:
-            drawn.save(path)
+            picture.save(path)
+
+
+def draw_marked(
+    studio: Studio, bodies: Mapping[str, Body], snapshot: Snapshot, path: Path, marked: Sequence[str]
+) -> None:
+    """Write a snapshot to `path`, with a ring and its name around each body that is marked."""
+    picture = studio.picture(snapshot)
+    for name, frame in snapshot.frames:
+        if name in marked:
+            _ring(picture, name, bodies[name].shape.corners(), frame)
+    picture.save(path)
+
+
+def _ring(picture: "Image", name: str, corners: FloatArray, frame: Frame) -> None:
+    """An ellipse around corners (n, 3) of a body in its frame, and a name above it."""
+    from PIL import ImageDraw
+
+    pose = numbers(frame)
+    turn = rotation(pose["roll"], pose["pitch"], pose["yaw"])
+    x, y = _seen(corners @ turn.T + frame.position).T
+    box = (x.min() - RIM, y.min() - RIM, x.max() + RIM, y.max() + RIM)
+    pen = ImageDraw.Draw(picture)
+    pen.ellipse(box, outline=RED, width=3)
+    pen.text(((box[0] + box[2]) / 2, box[1] - 2), name, RED, anchor="mb", stroke_width=1, stroke_fill="white")
+
+
+def _seen(points: FloatArray) -> FloatArray:
+    """Where points (n, 3) in the world, m, are in a picture, pixels (n, 2)."""
+    eye, ahead = np.array(EYE), np.subtract(AIM, EYE)
+    ahead = ahead / np.linalg.norm(ahead)
+    right = np.cross(ahead, [0, 0, 1])
+    right = right / np.linalg.norm(right)
+    away = points - eye
+    scale = SIZE[1] / 2 / np.tan(np.radians(VIEW_ANGLE) / 2) / (away @ ahead)
+    seen: FloatArray = np.stack(
+        [SIZE[0] / 2 + scale * (away @ right), SIZE[1] / 2 - scale * (away @ np.cross(right, ahead))], axis=1
+    )
+    return seen

@@ -4,8 +4,7 @@ Poses are frames of the world in metres, with quaternions x, y, z, w; angles in 
 """
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from pathlib import Path
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from proc3s import FloatArray
 from proc3s_tabletop.engine.snapshot import Snapshot
@@ -15,6 +14,9 @@ from proc3s_tabletop.robot.frames import Frame, Held
 from proc3s_tabletop.robot.hand_profile import HandProfile
 from proc3s_tabletop.robot.settings import ReferenceSettings
 from proc3s_tabletop.telemetry import Clearance, Quaternion, Vector
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
 
 
 class Hand(Protocol):
@@ -233,6 +235,16 @@ class GripSimulation(Protocol):
         """Release the simulator."""
 
 
+class Studio(Protocol):
+    """Draws snapshots, without a display; no simulation ever notices."""
+
+    def picture(self, snapshot: Snapshot) -> "Image":
+        """How a snapshot looks."""
+
+    def close(self) -> None:
+        """Release what draws."""
+
+
 class Engine(Protocol):
     """Makes simulations; whoever asks for one closes it after use."""
 
@@ -258,17 +270,5 @@ class Engine(Protocol):
         """Which direction (3,) of a body, its origin the centre of mass, is down when it has come to rest
         that was let go with a turn (3, 3)."""
 
-    def draw(
-        self, bodies: Mapping[str, Body], colors: Mapping[str, str], film: Sequence[Snapshot], path: Path
-    ) -> None:
-        """Write the last snapshot to `path`, and every one beside it with `-step0`, `-step1`, ... ."""
-
-    def draw_marked(
-        self,
-        bodies: Mapping[str, Body],
-        colors: Mapping[str, str],
-        snapshot: Snapshot,
-        path: Path,
-        marked: Sequence[str],
-    ) -> None:
-        """Write a snapshot to `path`, with a ring around the bodies that are marked."""
+    def studio(self, bodies: Mapping[str, Body], colors: Mapping[str, str]) -> Studio:
+        """A table with the robot and these bodies to be drawn; colours are names."""

@@ -1,9 +1,9 @@
 """The published models, put together: kinematics, the grasp point, and the hand that screens reckon with."""
 
+import mujoco
 import numpy as np
 import pytest
 
-import mujoco
 from proc3s_mujoco.engine import MujocoEngine
 from proc3s_mujoco.linkage import linkage
 from proc3s_mujoco.profile import MENAGERIE
