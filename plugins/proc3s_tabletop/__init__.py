@@ -1,4 +1,4 @@
-"""The table-top toolbox: a UR5e with a Robotiq 2F-85 over a table, in PyBullet.
+"""The table-top toolbox: a UR5e with a Robotiq 2F-85 over a table, in PyBullet or MuJoCo.
 
 Importing this package loads no simulator; a world loads it when it is made. A domain takes the skills and
 constraints by `use: [pick, place, kinematic, collision, grasp, placement]`.
