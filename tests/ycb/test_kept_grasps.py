@@ -88,7 +88,7 @@ def test_what_was_measured_is_not_measured_again(fresh, monkeypatch):
     first = LoneGrasps(BODIES["strawberry"], 0.0, 0.0)
     fits, holds = first.fits(pool()[:20]), first.holds(pool()[:5])
     again = LoneGrasps(BODIES["strawberry"], 0.0, 0.0)
-    monkeypatch.setattr("proc3s_tabletop.screens.lone_grasps.engine", None)  # no simulator
+    monkeypatch.setattr("proc3s_tabletop.bullet.engine.HandScene", None)  # no simulator
     assert (again.fits(pool()[:20]) == fits).all()
     assert (again.holds(pool()[:5]) == holds).all()
     with pytest.raises(TypeError):
@@ -101,7 +101,7 @@ def test_grasps_of_a_programs_own_are_measured_but_not_kept(fresh, monkeypatch):
     assert measured[0].tolist() == [0.0, pytest.approx(1.0, abs=0.2)]
     assert measured[1, 1] == 0.0
     again = LoneGrasps(BODIES["strawberry"], 0.0, 0.0)
-    monkeypatch.setattr("proc3s_tabletop.screens.lone_grasps.engine", None)  # no simulator
+    monkeypatch.setattr("proc3s_tabletop.bullet.engine.HandScene", None)  # no simulator
     with pytest.raises(TypeError):
         again.fits(own)
 
