@@ -18,6 +18,7 @@ from proc3s_tabletop.actions.reference import Reference
 from proc3s_tabletop.actions.table import Table
 from proc3s_tabletop.catalogue.body_specs import bodies_of, body_of
 from proc3s_tabletop.engine import choice, looks
+from proc3s_tabletop.engine.options import TabletopOptions
 from proc3s_tabletop.engine.protocol import Studio
 from proc3s_tabletop.engine.snapshot import Snapshot
 from proc3s_tabletop.objects.body import Body
@@ -52,6 +53,7 @@ class TabletopWorld(World[Telemetry]):
     other objects.
     """
 
+    options = TabletopOptions
     measures = Telemetry
 
     def __init__(

@@ -20,6 +20,7 @@ from .domain.values import Pose as Pose
 from .domain.world import Score as Score
 from .domain.world import Transition as Transition
 from .domain.world import World as World
+from .domain.world_options import WorldOptions as WorldOptions
 from .errors import OutOfTime as OutOfTime
 from .errors import SpecError as SpecError
 from .errors import UsageError as UsageError

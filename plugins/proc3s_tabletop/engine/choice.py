@@ -15,6 +15,11 @@ DEFAULT, FALLBACK = "pybullet", "mujoco"
 """The engine of a world that names none, and the one that stands in where the first cannot be imported."""
 
 
+def names() -> list[str]:
+    """The engines that are registered, whether their packages are installed or not."""
+    return sorted(point.name for point in entry_points(group=GROUP))
+
+
 def engine(name: str | None = None) -> Engine:
     """An engine by name, one in a process; the default without.
 

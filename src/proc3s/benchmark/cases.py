@@ -1,8 +1,9 @@
 """Benchmark cases: the fixed programs that a domain brings."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
+from proc3s.domain.world_options import with_world_options
 from proc3s.errors import UsageError, did_you_mean
 from proc3s.planning.options import key_values
 from proc3s.plugins.registry import Registry
@@ -14,12 +15,13 @@ _SCENE = "# scene:"
 
 @dataclass(frozen=True)
 class Case:
-    """A program for a task, and the options of its scene."""
+    """A program for a task, and the options of its scene and of its world."""
 
     task: str
     name: str
     program: str
     scene: Mapping[str, str] = field(default_factory=dict)
+    world: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def label(self) -> str:
@@ -27,17 +29,22 @@ class Case:
         return f"{self.task}.{self.name}"
 
 
-def find_cases(registry: Registry, wanted: Sequence[str] = ()) -> list[Case]:
+def find_cases(registry: Registry, wanted: Sequence[str] = (), world: Sequence[str] = ()) -> list[Case]:
     """The programs that domains bring, or those of the wanted domains, tasks or `domain/task.name`.
 
-    Raises UsageError for a name that has no program.
+    `world` has options of their worlds as `key=value`. Raises UsageError for a name that has no program,
+    or an option that one of the worlds does not have.
     """
     found = [case for spec in registry.all(DomainSpec).values() for case in _cases_of(spec)]
     names = {name for case in found for name in _names(case)}
     for name in wanted:
         if name not in names:
             raise UsageError(f"there is no benchmark program for {name!r}{did_you_mean(name, names)}")
-    return [case for case in found if not wanted or set(wanted) & set(_names(case))]
+    options = key_values([*world])
+    cases = [replace(case, world=options) for case in found if not wanted or set(wanted) & set(_names(case))]
+    for domain in dict.fromkeys(case.task.partition("/")[0] for case in cases):
+        with_world_options(registry.domain(domain), options)
+    return cases
 
 
 def _names(case: Case) -> tuple[str, str, str]:

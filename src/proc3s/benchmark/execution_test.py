@@ -86,7 +86,7 @@ def field_tests(
 
 def _setup(registry: Registry, case: Case, seed: int, robust: int, samples: int | None) -> Setup:
     given = {"task": case.task, "seed": seed, "robust": robust, "samples": samples}
-    options = RunOptions.model_validate({**given, "domain_options": case.scene})
+    options = RunOptions.model_validate({**given, "domain_options": case.scene, "world_options": case.world})
     return make_setup(registry, options, goal_needed=False)
 
 

@@ -97,6 +97,7 @@ class Bench:
                 "seed": seed,
                 "samples": self._samples,
                 "domain_options": case.scene,
+                "world_options": case.world,
                 "check_goal": False,
             }
         )

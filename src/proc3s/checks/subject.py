@@ -4,7 +4,7 @@ import dataclasses
 import functools
 import json
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -17,6 +17,7 @@ from proc3s.domain.plan_batch import PlanBatch
 from proc3s.domain.prelude import setup_code
 from proc3s.domain.source_text import source_text
 from proc3s.domain.values import Plan
+from proc3s.domain.world_options import with_world_options
 from proc3s.planning.options import RunOptions
 from proc3s.planning.setup import make_problem
 from proc3s.plugins.registry import Registry
@@ -52,15 +53,25 @@ class BundledAnswer:
 
 
 class Subject:
-    """A domain with what its checks need in common; `seconds` bounds the search for a screen's mistakes."""
+    """A domain with what its checks need in common; `seconds` bounds the search for a screen's mistakes.
 
-    def __init__(self, registry: Registry, name: str, seconds: float = 20.0) -> None:
+    `world_options` are those of its worlds. Raises UsageError for one that they do not have.
+    """
+
+    def __init__(
+        self,
+        registry: Registry,
+        name: str,
+        seconds: float = 20.0,
+        world_options: Mapping[str, str] | None = None,
+    ) -> None:
         self.registry, self.seconds = registry, seconds
         self.wrong: set[str] = set()
         """Checks that found errors."""
         self.causes: dict[str, str] = {}
         """What the domain's code raised, and the check that met it first."""
-        self.domain: Domain = registry.domain(name)
+        self._world_options = world_options or {}
+        self.domain: Domain = with_world_options(registry.domain(name), self._world_options)
         self.spec = self.domain.spec
         self.file = str(self.spec.folder / "domain.yaml") if self.spec.folder else f"domain {name}"
 
@@ -81,6 +92,7 @@ class Subject:
                 "goal": goal,
                 "check_goal": False,
                 "samples": SAMPLES,
+                "world_options": self._world_options,
             }
         )
         return make_problem(self.registry, options, goal_needed=False)

@@ -11,6 +11,7 @@ import numpy as np
 from proc3s.domain.domain import Domain
 from proc3s.domain.state import State
 from proc3s.domain.values import Action, Plan
+from proc3s.domain.world_options import WorldOptions
 from proc3s.errors import UsageError, blame, not_wanted
 from proc3s.specs.base import Target
 from proc3s.specs.domain import ScreenSpec
@@ -51,6 +52,9 @@ class World(Generic[T]):
 
     screens: ClassVar[tuple[ScreenSpec, ...]] = ()
     """Cheap tests that come with this world, for every domain in which it accepts plans."""
+
+    options: ClassVar[type[WorldOptions]] = WorldOptions
+    """The model of what `-W key=value` may say of this world, and of the execution world of its domain."""
 
     measures: ClassVar[type[Any]] = object
     """What skills must return; by default they may return anything."""

@@ -87,6 +87,8 @@ class RunOptions(Spec):
     """plugin not installed: .py, domain.yaml or folder (repeatable)"""
     domain_options: Annotated[Pairs, replace(_WORLD, flag="-D")] = Field(default_factory=dict)
     """argument of the task's scene"""
+    world_options: Annotated[Pairs, replace(_WORLD, flag="-W")] = Field(default_factory=dict)
+    """option of the world, see `proc3s show DOMAIN`"""
     method_options: Annotated[Pairs, replace(_SEARCH, flag="-M")] = Field(default_factory=dict)
     """field of the method"""
     solver_options: Annotated[Pairs, replace(_SEARCH, flag="-S")] = Field(default_factory=dict)

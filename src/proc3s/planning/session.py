@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from proc3s.domain.world_options import world_used
 from proc3s.errors import UsageError
 from proc3s.llm.budget import Ledger, Spent, spent_on
 from proc3s.llm.errors import LLMError
@@ -157,6 +158,7 @@ class Session:
             samples=self._setup.problem.samples,
             scene=self._setup.problem.scene,
             goal=self._setup.problem.goal,
+            world=world_used(self._setup.problem.domain),
         )
 
     def _asker(self) -> Callable[[], Propose]:

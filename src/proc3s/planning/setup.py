@@ -11,6 +11,7 @@ import numpy as np
 from proc3s import specs
 from proc3s.domain.samplers import Space
 from proc3s.domain.world import World
+from proc3s.domain.world_options import with_world_options
 from proc3s.errors import Issue, SpecError, UsageError, blame
 from proc3s.llm.types import Message
 from proc3s.planning.limits import make_limits
@@ -47,6 +48,7 @@ def make_problem(registry: Registry, options: RunOptions, goal_needed: bool = Tr
     Raises UsageError if the task has no instruction of its own and `goal` gives none.
     """
     domain, task = registry.task(options.task)
+    domain = with_world_options(domain, options.world_options)
     if options.goal is not None and not options.goal.strip():
         raise UsageError("--goal is empty; leave it out, or say what is to be done")
     goal = options.goal or task.instruction

@@ -7,6 +7,7 @@ from typing import Any, Literal
 from pydantic import BaseModel, ConfigDict
 
 from proc3s.domain.values import Plan
+from proc3s.domain.world_options import world_used
 from proc3s.errors import Stopped
 from proc3s.feedback.report import Diagnosis, Failure
 from proc3s.llm.budget import Spent
@@ -37,6 +38,8 @@ class Summary(BaseModel):
     """The preset."""
     seed: int | None = None
     """The seed of the scene and of the search."""
+    world: dict[str, str] = {}
+    """What the worlds really used of what `-W` may choose; empty for a world without options."""
     solved: bool = False
     """The world accepted the plan."""
     executed: Literal["solution", "fallback", "none"] = "none"
@@ -102,6 +105,7 @@ def summarize(
         solver=setup.solver,
         preset=setup.preset.name,
         seed=options.seed,
+        world=world_used(setup.problem.domain),
         solved=execution is not None and execution.executed == "solution",
         executed=execution.executed if execution else "none",
         goal_reached=execution.score.reached if execution and execution.score else None,

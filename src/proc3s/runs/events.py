@@ -46,6 +46,8 @@ class RunStarted(Event):
     """The initial state as JSON."""
     goal: str = ""
     """The instruction in plain language."""
+    world: dict[str, str] = {}
+    """What the worlds really use of what `-W` may choose."""
 
 
 class RunResumed(Event):

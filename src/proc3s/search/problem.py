@@ -47,7 +47,8 @@ class Problem:
         return {name: value for name, value in self.__dict__.items() if name != "initial"}
 
     def __hash__(self) -> int:
-        return hash((self.scene, self.goal, self.seed))
+        spec = self.domain.spec
+        return hash((self.scene, self.goal, self.seed, repr(spec.world), repr(spec.execution)))
 
     def active_screens(self, stateful: bool) -> tuple[ScreenSpec, ...]:
         """The screens that may be used, of one of the two sorts."""

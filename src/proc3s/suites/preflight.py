@@ -50,6 +50,7 @@ def _check_task(
     for (method, preset), times in Counter((cell.method, cell.preset) for cell in cells).items():
         given = {"task": cells[0].task, "method": method, "preset": preset, "seed": seed}
         given |= {"samples": order.spec.samples, "feedback": order.spec.feedback}
+        given |= {"world_options": order.world_options}
         options = RunOptions.model_validate({**given, "template_dir": order.template_dir})
         setup = make_setup(registry, options)
         setup.executor.close()

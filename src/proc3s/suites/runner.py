@@ -54,6 +54,8 @@ class Order:
     """Folder of templates that go before all others; it is among the arguments, too."""
     judged: Mapping[str, bool] = field(default_factory=dict)
     """Tasks that have a judge."""
+    world_options: Mapping[str, str] = field(default_factory=dict)
+    """Options of the world; they are among the arguments, too."""
 
 
 EpisodeOutcome = Episode | Unfinished

@@ -52,7 +52,7 @@ def bench(
         a.Given,
         a.fields(
             *("llm", "llm_options", "llm_jobs", "record", "max_cost", "template_dir"),
-            *("check_goal", "samples", "jobs", "limits", "plugins"),
+            *("check_goal", "samples", "jobs", "world_options", "limits", "plugins"),
         ),
     ],
     out: Out = None,
@@ -89,7 +89,7 @@ def ccsp(
         Many, _names("--solvers", "with commas; see `proc3s list solvers` (default: all)")
     ] = None,
     seeds: Seeds = None,
-    given: Annotated[a.Given, a.fields("samples", "executor", "jobs", "plugins")],
+    given: Annotated[a.Given, a.fields("samples", "executor", "jobs", "world_options", "plugins")],
     throughput: Annotated[
         int,
         typer.Option(
@@ -123,7 +123,7 @@ def execution(
     *,
     tasks: Programs = None,
     seeds: Seeds = None,
-    given: Annotated[a.Given, a.fields("samples", "robust", "plugins")],
+    given: Annotated[a.Given, a.fields("samples", "robust", "world_options", "plugins")],
     times: Annotated[
         int,
         typer.Option(

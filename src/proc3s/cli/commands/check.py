@@ -8,6 +8,7 @@ from proc3s.cli import arguments as a
 
 
 def check(
+    *,
     domain: Annotated[
         str,
         typer.Argument(
@@ -20,10 +21,11 @@ def check(
             "--seconds", metavar="N", min=0, help="time for finding plans that a screen rejects wrongly"
         ),
     ] = 20.0,
+    given: Annotated[a.Given, a.fields("world_options")],
     plugin: a.Plugins = None,
     json: a.Json = False,
 ) -> None:
     """Examine a domain: does it do what solvers, workers and models rely on? Exit code 2 on errors."""
     from proc3s.cli.handlers.check import examine_domain
 
-    raise typer.Exit(examine_domain(domain, seconds, tuple(plugin or ()), json))
+    raise typer.Exit(examine_domain(domain, seconds, given, tuple(plugin or ()), json))

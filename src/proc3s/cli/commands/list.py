@@ -28,7 +28,7 @@ def show(
         typer.Argument(metavar="NAME", help="a domain, a task (domain/task), a method, a solver, an LLM, …"),
     ],
     picture: Annotated[bool, typer.Option("--picture", help="draw the scene of a task as PNG")] = False,
-    given: Annotated[a.Given, a.fields("seed", "domain_options")],
+    given: Annotated[a.Given, a.fields("seed", "domain_options", "world_options")],
     out: Annotated[
         Path | None, typer.Option("--out", metavar="PATH", help="its file (default: TASK-seedN.png)")
     ] = None,
@@ -43,6 +43,6 @@ def show(
     if picture:
         draw_scene(name, given, plugin or [], out, json)
     elif given or out:
-        raise UsageError("--seed, -D and --out go with --picture")
+        raise UsageError("--seed, -D, -W and --out go with --picture")
     else:
         print_spec(name, plugin or [], json)

@@ -8,7 +8,9 @@ from proc3s.cli import arguments as a
 def replay(
     *,
     run: a.Run = None,
-    given: Annotated[a.Given, a.fields("solver", "samples", "executor", "solver_options", "plugins")],
+    given: Annotated[
+        a.Given, a.fields("solver", "samples", "executor", "solver_options", "world_options", "plugins")
+    ],
     out: a.Out = None,
     json: a.Json = False,
 ) -> None:

@@ -46,6 +46,7 @@ class SearchesWanted:
     jobs: int
     throughput: int
     samples: int | None = None
+    world_options: Sequence[str] = ()
     plugins: Sequence[Path] = ()
 
 
@@ -120,7 +121,7 @@ def _chosen(registry: Registry, wanted: SearchesWanted) -> tuple[list[Case], lis
     if wanted.jobs > 1:
         plain = f"{PLAIN.name}, {wanted.jobs} jobs"
         ways.insert(0, SearchVariant(plain, PLAIN.solver, wanted.executor, wanted.jobs, saving=False))
-    cases = find_cases(registry, wanted.tasks)
+    cases = find_cases(registry, wanted.tasks, wanted.world_options)
     if not cases:
         raise UsageError("no domain brings programs for a benchmark (bench/TASK.NAME.py beside its spec)")
     return cases, ways

@@ -30,13 +30,14 @@ class FieldTestWanted:
     times: int
     samples: int | None = None
     robust: int = 2
+    world_options: Sequence[str] = ()
     plugins: Sequence[Path] = ()
 
 
 def run_field_test(wanted: FieldTestWanted, out: Path | None, as_json: bool) -> None:
     """Test, print and write. What is done when it is interrupted is kept. Raises UsageError."""
     registry = open_registry(wanted.plugins)
-    cases = judged(find_cases(registry, wanted.tasks), registry)
+    cases = judged(find_cases(registry, wanted.tasks, wanted.world_options), registry)
     folder, done = made_folder(out, "execution"), list[FieldTest]()
     with alone_in(folder):
         stopped = go_through(_test(registry, cases, wanted, done), as_json)

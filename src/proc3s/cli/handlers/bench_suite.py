@@ -51,6 +51,7 @@ class SuiteWanted:
     llm: str | None = None
     llm_options: Sequence[str] = ()
     llm_jobs: int | None = None
+    world_options: Sequence[str] = ()
     jobs: int = 1
     max_cost: float | None = None
     check_goal: bool | None = None
@@ -171,6 +172,7 @@ def _order(registry: Registry, wanted: SuiteWanted, spec: SuiteSpec) -> Order:
         max_cost=wanted.max_cost,
         template_dir=wanted.template_dir,
         judged=judged,
+        world_options=key_values(list(wanted.world_options)),
     )
 
 
@@ -181,6 +183,8 @@ def _arguments(wanted: SuiteWanted) -> Iterator[str]:
         yield from ("--record", str(wanted.record.absolute()))
     if wanted.template_dir is not None:
         yield from ("--template-dir", str(wanted.template_dir.absolute()))
+    for pair in dict.fromkeys(wanted.world_options):
+        yield from ("-W", pair)
     for path in wanted.plugins:
         yield from ("--plugin", str(path.absolute()))
 

@@ -1,8 +1,9 @@
 """A domain examined from the command line: found by name or by path, its findings as a report."""
 
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 from rich.console import Console
 from rich.markup import escape
@@ -13,16 +14,19 @@ from proc3s.cli.failures import warn_of_failures
 from proc3s.cli.streams import print_document
 from proc3s.domain.world import make_world
 from proc3s.errors import UsageError
+from proc3s.planning.options import plain_options
 from proc3s.plugins.loose_folders import DOMAIN_FILE, loose_plugins
 from proc3s.plugins.registry import Registry, open_registry
 from proc3s.specs.domain import DomainSpec
 from proc3s.wording import count
 
 
-def examine_domain(wanted: str, seconds: float, plugins: Sequence[Path], as_json: bool) -> int:
+def examine_domain(
+    wanted: str, seconds: float, given: Mapping[str, Any], plugins: Sequence[Path], as_json: bool
+) -> int:
     """Print the report; returns the exit code. Raises UsageError for a domain that is not there."""
     registry, name = _found(wanted, plugins)
-    subject = Subject(registry, name, seconds)
+    subject = Subject(registry, name, seconds, **plain_options(given))
     warn_of_failures(registry)
     out = Console(highlight=False, quiet=as_json, soft_wrap=True)
     found: list[CheckFinding] = []

@@ -5,6 +5,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
+from pydantic import BaseModel
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
@@ -13,6 +14,7 @@ from proc3s.cli.console.lines import print_line
 from proc3s.cli.failures import warn_of_failures
 from proc3s.cli.streams import json_of, print_document
 from proc3s.domain.domain import Domain
+from proc3s.domain.world_options import options_of
 from proc3s.errors import UsageError, did_you_mean
 from proc3s.llm.call_options import CallOptions
 from proc3s.plugins.part_options import options_model
@@ -112,11 +114,14 @@ def _text(value: Any) -> str:
 def _describe_options(spec: SolverSpec | LLMSpec) -> Iterator[str]:
     """Own options first, then those that every LLM takes."""
     flag = "-S" if isinstance(spec, SolverSpec) else "-L"
-    models = [options_model(spec), CallOptions if isinstance(spec, LLMSpec) else None]
-    for model in models:
-        for field, info in model.model_fields.items() if model else ():
-            default = "required" if info.is_required() else f"default {info.default}"
-            yield escape(f"    {flag} {field}=…  {info.description or ''} ({default})")
+    for model in (options_model(spec), CallOptions if isinstance(spec, LLMSpec) else None):
+        yield from _options(flag, model) if model else ()
+
+
+def _options(flag: str, model: type[BaseModel]) -> Iterator[str]:
+    for field, info in model.model_fields.items():
+        default = "required" if info.is_required() else f"default {info.default}"
+        yield escape(f"    {flag} {field}=…  {info.description or ''} ({default})")
 
 
 def _describe_domain(domain: Domain) -> Iterator[str]:
@@ -139,6 +144,9 @@ def _describe_domain(domain: Domain) -> Iterator[str]:
     yield "  [bold]tasks[/]"
     for task in spec.tasks.values():
         yield from _describe_task(spec.name, task)
+    if options := [*_options("-W", options_of(domain))]:
+        yield "  [bold]world[/]"
+        yield from options
     yield f"  [bold]budget[/] {escape(_text(spec.budget))} samples"
     for credit in spec.credits:
         yield f"  [bold]credit[/] {escape(credit)}"
