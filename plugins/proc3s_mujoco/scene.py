@@ -3,9 +3,9 @@
 from collections.abc import Mapping
 from typing import Any
 
+import mujoco
 import numpy as np
 
-import mujoco
 from proc3s_mujoco import closest, contacts, forces, rays, specs
 from proc3s_mujoco.arm import Robot
 from proc3s_mujoco.simulation import TableScene
