@@ -11,6 +11,7 @@ KEYS = [
     "solver",
     "preset",
     "seed",
+    "world",
     "solved",
     "executed",
     "goal_reached",

