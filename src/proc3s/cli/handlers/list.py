@@ -1,5 +1,6 @@
 """The text behind `proc3s list` and `proc3s show`."""
 
+import contextlib
 import json
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -15,7 +16,7 @@ from proc3s.cli.failures import warn_of_failures
 from proc3s.cli.streams import json_of, print_document
 from proc3s.domain.domain import Domain
 from proc3s.domain.world_options import options_of
-from proc3s.errors import UsageError, did_you_mean
+from proc3s.errors import SpecError, UsageError, did_you_mean
 from proc3s.llm.call_options import CallOptions
 from proc3s.plugins.part_options import options_model
 from proc3s.plugins.registry import KINDS, Registry, open_registry
@@ -144,12 +145,18 @@ def _describe_domain(domain: Domain) -> Iterator[str]:
     yield "  [bold]tasks[/]"
     for task in spec.tasks.values():
         yield from _describe_task(spec.name, task)
-    if options := [*_options("-W", options_of(domain))]:
-        yield "  [bold]world[/]"
-        yield from options
+    yield from _describe_world(domain)
     yield f"  [bold]budget[/] {escape(_text(spec.budget))} samples"
     for credit in spec.credits:
         yield f"  [bold]credit[/] {escape(credit)}"
+
+
+def _describe_world(domain: Domain) -> Iterator[str]:
+    """The options of the world; none of one that cannot be imported, which `proc3s check` says."""
+    with contextlib.suppress(SpecError):
+        if options := [*_options("-W", options_of(domain))]:
+            yield "  [bold]world[/]"
+            yield from options
 
 
 def _param(name: str, spec: ParamSpec) -> str:
