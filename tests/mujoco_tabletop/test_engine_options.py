@@ -22,6 +22,7 @@ def test_mujoco_accepts_and_carries_out_where_it_is_chosen_and_so_does_a_replay(
     assert outcome(cli("replay", "first", "--json")) == first
 
 
+@pytest.mark.slow
 def test_a_replay_may_carry_out_in_another_engine(cli):
     pytest.importorskip("pybullet")
     first = outcome(cli("run", "blocks/pyramid", "--out", "first", "--json"))

@@ -163,7 +163,7 @@ def test_the_scene_of_a_task_is_drawn_before_there_is_a_plan(cli, here):
     ("args", "says"),
     [
         (("drawing", "--picture"), "--picture draws the scene of a task"),
-        (("drawing/star", "--seed", "1"), "--seed, -D and --out go with --picture"),
+        (("drawing/star", "--seed", "1"), "--seed, -D, -W and --out go with --picture"),
         (("drawing/nothing", "--picture"), "nothing"),
         (("drawing/star", "--picture", "--out", "no/such/folder/x.png"), "No such file"),
         (("drawing/star", "--picture", "-D", "size=3"), "size"),

@@ -23,9 +23,9 @@ class TabletopOptions(WorldOptions):
     """The engines of the two worlds."""
 
     engine: EngineName | None = None
-    """physics engine, pybullet or mujoco; None leaves it to the domain"""
+    """physics engine, pybullet or mujoco (default: that of the domain)"""
     execution: EngineName | None = None
-    """engine that accepted plans are carried out in; None: the same"""
+    """engine that carries accepted plans out (default: the same)"""
 
     def reference_args(self) -> dict[str, Any]:
         """The engine that accepts plans."""

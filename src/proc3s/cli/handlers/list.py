@@ -122,7 +122,8 @@ def _describe_options(spec: SolverSpec | LLMSpec) -> Iterator[str]:
 def _options(flag: str, model: type[BaseModel]) -> Iterator[str]:
     for field, info in model.model_fields.items():
         default = "required" if info.is_required() else f"default {info.default}"
-        yield escape(f"    {flag} {field}=…  {info.description or ''} ({default})")
+        more = "" if info.default is None else f" ({default})"  # what None means, the description says
+        yield escape(f"    {flag} {field}=…  {info.description or ''}{more}")
 
 
 def _describe_domain(domain: Domain) -> Iterator[str]:
