@@ -56,7 +56,11 @@ def test_a_newer_python_goes_without_the_simulator_alone():
     ("python", "package", "words"),
     [
         ((3, 11, 9), "pybullet", r"needs pybullet: pip install 'proc3s\[tabletop\]'"),
-        ((3, 12, 1), "pybullet", r"no wheel for Python .*: make an environment of Python 3\.11"),
+        (
+            (3, 12, 1),
+            "pybullet",
+            r"no wheel .*: take another engine by pip .*mujoco.*, or make an environment of Python 3\.11",
+        ),
         ((3, 13, 0), "trimesh", r"needs trimesh: pip install 'proc3s\[tabletop\]'"),
     ],
 )
