@@ -1,9 +1,9 @@
 """Judges the same plans in the reference worlds of both engines, and prints how often they agree.
 
-    python tests/mujoco/agreement.py blocks/pyramid blocks/packing --plans 200
+    python tests/mujoco_tabletop/agreement.py blocks/pyramid blocks/packing --plans 200
 
-Plans come from the bundled program and from the wide one of the benchmark, half accepted and half refused by
-PyBullet as far as there are such. Each is judged three times by each engine, every object moved by up to
+Plans come from the bundled program and from all of the benchmark, half of each one's accepted and half
+refused by PyBullet as far as there are such. Each is judged three times by each engine, every object moved by up to
 0.5 mm; clear is a plan on which each engine gives one verdict.
 """
 
@@ -21,6 +21,7 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).parents[1] / "support"))
 
 from boxing import box
+from proc3s.benchmark.cases import find_cases
 from proc3s.planning.options import RunOptions
 from proc3s.planning.setup import make_problem
 from proc3s.plugins.registry import open_registry
@@ -33,11 +34,11 @@ REGISTRY = open_registry()
 
 
 def programs(domain, task):
-    """The bundled program of a task, and the wide one of the benchmark."""
-    answers, bench = domain.spec.folder / "answers", domain.spec.folder / "bench"
-    yield extract_program((answers / f"{task}.proc3s.md").read_text(encoding="utf-8"))
-    if (wide := bench / f"{task}.open.py").exists():
-        yield wide.read_text(encoding="utf-8")
+    """The bundled program of a task, and those of the benchmark; each with the options of its scene."""
+    answer = domain.spec.folder / "answers" / f"{task}.proc3s.md"
+    yield {}, extract_program(answer.read_text(encoding="utf-8"))
+    for case in find_cases(REGISTRY, [f"{domain.spec.name}/{task}"]):
+        yield case.scene, case.program
 
 
 def worlds(domain):
@@ -90,8 +91,9 @@ def compare(task, count, scenes):
     sources = [*programs(domain, task.partition("/")[2])]
     made, found, rng = worlds(domain), Counter(), np.random.default_rng(0)
     share = -(-count // (len(sources) * scenes))
-    for seed, source in itertools.product(range(scenes), sources):
-        problem = make_problem(REGISTRY, RunOptions(task=task, method="proc3s", seed=seed))
+    for seed, (scene, source) in itertools.product(range(scenes), sources):
+        options = RunOptions(task=task, method="proc3s", seed=seed, domain_options=scene)
+        problem = make_problem(REGISTRY, options)
         for plan in plans(problem, made["pybullet"], source, share):
             said = judged(made, problem, plan, rng)
             passed = {name: {v == "accepted" for v in verdicts} for name, verdicts in said.items()}

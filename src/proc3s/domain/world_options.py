@@ -29,7 +29,10 @@ class WorldOptions(BaseModel):
 
     @classmethod
     def used(cls, reference: Mapping[str, Any], execution: Mapping[str, Any]) -> dict[str, str]:
-        """What two worlds with these arguments really use; the summary of a run says it."""
+        """What two worlds with these arguments really use, by the names of the options.
+
+        The summary of a run says it, and the run keeps to it when it is resumed or replayed.
+        """
         return {}
 
 

@@ -148,17 +148,20 @@ class Session:
         return summary.model_copy(update={"error": "; ".join(self._unwritten), "stopped": UsageError.stopped})
 
     def _begun(self) -> Event:
+        world = world_used(self._setup.problem.domain)
+        # With the defaults that held, so that whoever carries the plan out again elsewhere has them, too.
+        pinned = {"world_options": {**self._options.world_options, **world}}
+        options = self._options.model_copy(update=pinned).model_dump(mode="json")
         if self._job.past is not None:
-            options = self._options.model_dump(mode="json")
             return RunResumed(options=options, versions=versions())
         return RunStarted(
             id=self._past.id,
-            options=self._options.model_dump(mode="json"),
+            options=options,
             versions=versions(),
             samples=self._setup.problem.samples,
             scene=self._setup.problem.scene,
             goal=self._setup.problem.goal,
-            world=world_used(self._setup.problem.domain),
+            world=world,
         )
 
     def _asker(self) -> Callable[[], Propose]:
