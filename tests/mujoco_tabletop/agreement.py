@@ -3,8 +3,8 @@
     python tests/mujoco_tabletop/agreement.py blocks/pyramid blocks/packing --plans 200
 
 Plans come from the bundled program and from all of the benchmark, half of each one's accepted and half
-refused by PyBullet as far as there are such. Each is judged three times by each engine, every object moved by up to
-0.5 mm; clear is a plan on which each engine gives one verdict.
+refused by PyBullet as far as there are such. Each is judged three times by each engine, every object moved
+by up to 0.5 mm; clear is a plan on which each engine gives one verdict.
 """
 
 import argparse

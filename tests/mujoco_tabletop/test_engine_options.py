@@ -12,6 +12,7 @@ def outcome(result):
     return {name: result.json[name] for name in ("solved", "goal_reached", "world", "plan")}
 
 
+@pytest.mark.slow
 def test_mujoco_accepts_and_carries_out_where_it_is_chosen_and_so_does_a_replay(cli, here):
     first = outcome(cli("run", "blocks/pyramid", "-W", "engine=mujoco", "--out", "first", "--json"))
     assert first["world"] == {"engine": "mujoco", "execution": "mujoco"}

@@ -33,6 +33,7 @@ def run(here, task, *options):
     return json.loads(done.stdout), done.stderr
 
 
+@pytest.mark.slow
 def test_a_pyramid_is_planned_carried_out_and_drawn_and_a_replay_keeps_to_the_engine(here, cli):
     summary, said = run(here, "pyramid")
     assert (summary["solved"], summary["goal_reached"], summary["rounds"]) == (True, True, 0)
