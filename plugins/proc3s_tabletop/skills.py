@@ -15,8 +15,8 @@ class Arm(Protocol):
     def pick(self, x: float, y: float, z: float) -> Telemetry:
         """Grasp at a point."""
 
-    def place(self, x: float, y: float, z: float) -> Telemetry:
-        """Set down what is held over a point."""
+    def place(self, x: float, y: float, z: float, turn: float = 0.0) -> Telemetry:
+        """Set down what is held over a point, the hand turned about z."""
 
     def pick_object(self, name: str, grasp: FloatArray) -> Telemetry:
         """Grasp an object by a pose (6,) of the grasp point in its frame."""
@@ -32,8 +32,8 @@ class HasTable(Protocol):
     def table(self) -> Arm:
         """The table that they work on."""
 
-    def placed(self, x: float, y: float, z: float) -> tuple[float, float, float]:
-        """Where something is placed that is to be placed at a point."""
+    def placed(self, x: float, y: float, z: float) -> tuple[float, float, float, float]:
+        """Where something is placed that is to be placed at a point, and its turn about z, rad."""
 
 
 def pick(world: HasTable, x: float, y: float, z: float) -> Telemetry:
@@ -53,6 +53,6 @@ def pick_object(world: HasTable, o: str, g: Pose) -> Telemetry:
 
 def place_object(world: HasTable, o: str, g: Pose, p: Pose) -> Telemetry:
     """The skill: bring an object that is held by a grasp to a pose of the world, and let go."""
-    x, y, z = world.placed(p.x, p.y, p.z)
-    pose = np.array([x, y, z, p.roll, p.pitch, p.yaw])
+    x, y, z, turn = world.placed(p.x, p.y, p.z)
+    pose = np.array([x, y, z, p.roll, p.pitch, p.yaw + turn])
     return world.table.place_object(o, np.array(dataclasses.astuple(g)), pose)

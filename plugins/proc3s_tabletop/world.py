@@ -14,6 +14,7 @@ from proc3s.errors import Issue
 from proc3s.wording import count
 from proc3s_tabletop.actions.disturbances import OFF, Disturbance
 from proc3s_tabletop.actions.execution import Execution
+from proc3s_tabletop.actions.misplacement import Misplacement
 from proc3s_tabletop.actions.reference import Reference
 from proc3s_tabletop.actions.table import Table
 from proc3s_tabletop.catalogue.body_specs import bodies_of, body_of
@@ -72,6 +73,7 @@ class TabletopWorld(World[Telemetry]):
         self._table: Table | None = None
         self._film: list[Snapshot] = []
         self._disturbance: Disturbance | None = None
+        self._misplacement: Misplacement | None = None
 
     def disturb(self, rng: np.random.Generator | None, corner: int | None = None) -> None:
         """From the next reset on, arm and fingers are a little faster or slower, and what is placed comes
@@ -79,14 +81,24 @@ class TabletopWorld(World[Telemetry]):
         self._disturbance = Disturbance(rng, corner, self.placement_error) if rng else None
         self._set_speed()
 
+    def misplace(self, rng: np.random.Generator | None, error: float = 0.0) -> None:
+        """From the next reset on objects stand, and are set down, up to `error` metres off, turned by up to
+        half a degree a millimetre; picks reach for where plan or arm believe them to be."""
+        self._misplacement = Misplacement(rng, error) if rng and error else None
+
     def _set_speed(self) -> None:
         # At once, too: without disturbance the next plan may go on from a snapshot, without a reset.
         if self._table is not None:
             self._table.set_speed(self._disturbance.speed if self._disturbance else self.speed)
 
-    def placed(self, x: float, y: float, z: float) -> tuple[float, float, float]:
-        """Where something is placed that is to be placed at a point."""
-        return self._disturbance.off(x, y, z) if self._disturbance else (x, y, z)
+    def placed(self, x: float, y: float, z: float) -> tuple[float, float, float, float]:
+        """Where something is placed that is to be placed at a point, and its turn about z, rad."""
+        if self._disturbance:
+            x, y, z = self._disturbance.off(x, y, z)
+        if not self._misplacement:
+            return x, y, z, 0.0
+        offset = self._misplacement.draw()
+        return x + offset.x, y + offset.y, z, offset.turn
 
     def step(self, action: Action) -> Transition[Telemetry]:
         """Carry out one ground action, which may be one pick, or one place, at most.
@@ -134,7 +146,10 @@ class TabletopWorld(World[Telemetry]):
         if self._table is None or bodies != self._bodies:
             self.close()
             self._table, self._bodies = self.make_table(bodies, frames), bodies
-        self._table.put(frames)
+        if self._misplacement:
+            self._table.put(self._misplacement.stands(frames), believed=frames)
+        else:
+            self._table.put(frames)
         self._set_speed()
         self._film = []
 

@@ -44,7 +44,8 @@ class Execution(Table):
             note_bounds(attempt, self.snapshot, x, y)
             return attempt.telemetry
         linkage = tuple(round(angle, 9) for angle in self.scene.robot.linkage())
-        self.snapshot = dataclasses.replace(self.scene.save(), linkage=linkage)
+        believed = self.snapshot.believed
+        self.snapshot = dataclasses.replace(self.scene.save(), linkage=linkage, believed=believed)
         note_bounds(attempt, self.snapshot, x, y)
         held = self.snapshot.held
         return dataclasses.replace(attempt.telemetry, held=held.name if held else None)

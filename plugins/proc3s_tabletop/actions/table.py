@@ -13,9 +13,9 @@ from proc3s_tabletop.engine.protocol import Simulation
 from proc3s_tabletop.engine.snapshot import Snapshot
 from proc3s_tabletop.objects.body import Body
 from proc3s_tabletop.robot import frames as poses
-from proc3s_tabletop.robot.frames import Frame
+from proc3s_tabletop.robot.frames import Frame, compose, inverse
 from proc3s_tabletop.robot.grasp_frames import top_down
-from proc3s_tabletop.robot.settings import LEVER, ReferenceSettings
+from proc3s_tabletop.robot.settings import LEVER, TOP_DOWN_YAW, ReferenceSettings
 from proc3s_tabletop.telemetry import Telemetry
 
 
@@ -38,9 +38,14 @@ class Table(ABC):
         """Picks and places that were attempted, up to now."""
         self.put(frames)
 
-    def put(self, frames: Mapping[str, Frame]) -> None:
-        """Start again, empty-handed, with every body at its frame."""
-        self.snapshot = Snapshot(tuple((name, frames[name]) for name in self.scene.names))
+    def put(self, frames: Mapping[str, Frame], believed: Mapping[str, Frame] | None = None) -> None:
+        """Start again, empty-handed, with every body at its frame.
+
+        `believed` has the frames in which the arm believes them to be, where they are others.
+        """
+        errors = {name: compose(inverse(frames[name]), seen) for name, seen in (believed or {}).items()}
+        stands = tuple((name, frames[name]) for name in self.scene.names)
+        self.snapshot = Snapshot(stands, believed=tuple(sorted(errors.items())))
 
     def set_speed(self, speed: float) -> None:
         """Scale the speed of arm and fingers."""
@@ -62,13 +67,16 @@ class Table(ABC):
         """Grasp from above, fingers open along y, the grasp point at x, y, z (metres)."""
         return self.pick_at(top_down(x, y, z))
 
-    def place(self, x: float, y: float, z: float) -> Telemetry:
-        """Set down what is held with the grasp point over x, y (metres), where it meets its support."""
-        return self.place_at(top_down(x, y, z))
+    def place(self, x: float, y: float, z: float, turn: float = 0.0) -> Telemetry:
+        """Set down what is held with the grasp point over x, y (metres), where it meets its support.
+
+        The hand is turned about z by `turn` (rad) from where it was in the pick.
+        """
+        return self.place_at(top_down(x, y, z, TOP_DOWN_YAW + turn))
 
     def pick_object(self, name: str, grasp: FloatArray) -> Telemetry:
-        """Grasp an object by a pose (6,) of the grasp point in its frame, wherever it is now."""
-        here = np.array([*poses.numbers(dict(self.snapshot.frames)[name]).values()])
+        """Grasp an object by a pose (6,) of the grasp point in its frame, where it is believed to be now."""
+        here = np.array([*poses.numbers(self.snapshot.seen(name)).values()])
         telemetry = self.pick_at(matrices(here) @ matrices(grasp))
         if telemetry.held is not None and not telemetry.ended:
             self.snapshot = dataclasses.replace(self.snapshot, grasp=tuple(grasp.tolist()))

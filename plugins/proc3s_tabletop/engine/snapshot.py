@@ -3,7 +3,7 @@
 import dataclasses
 from dataclasses import dataclass
 
-from proc3s_tabletop.robot.frames import Frame, Held
+from proc3s_tabletop.robot.frames import Frame, Held, compose
 from proc3s_tabletop.robot.settings import HOME
 
 
@@ -22,13 +22,20 @@ class Snapshot:
     linkage: tuple[float, ...] = ()
     grasp: tuple[float, ...] = ()
     """The six numbers of the grasp, in the frame of the object, that a pick named with the object."""
+    believed: tuple[tuple[str, Frame], ...] = ()
+    """Of objects that are not where the arm believes: where it does, in the true frame of each."""
 
     def after(self, before: "Snapshot") -> "Snapshot":
         """The same, with objects that hardly moved since `before` put back: nothing creeps."""
         frames = zip(before.frames, self.frames, strict=True)
         held = {snapshot.held.name for snapshot in (before, self) if snapshot.held}
         kept = ((n, old if n not in held and _same(old, new) else new) for (n, old), (_, new) in frames)
-        return dataclasses.replace(self, frames=tuple(kept))
+        return dataclasses.replace(self, frames=tuple(kept), believed=before.believed)
+
+    def seen(self, name: str) -> Frame:
+        """Where the arm believes an object to be; an error of the camera stays with what it was made of."""
+        true, believed = dict(self.frames)[name], dict(self.believed)
+        return compose(true, believed[name]) if name in believed else true
 
     def loose(self) -> dict[str, Frame]:
         """Where all objects are that are not in hand."""

@@ -98,6 +98,16 @@ class World(Generic[T]):
         if rng is not None:
             raise UsageError(f"the world of {self.domain.spec.name} has no disturbances to rehearse with")
 
+    def misplace(self, rng: np.random.Generator | None, error: float = 0.0) -> None:
+        """From the next reset on everything stands, and is put down, up to `error` metres off; None: exactly.
+
+        Errors are uniform in a disc, new for each object and each time that one is put down, and come with a
+        turn of up to half a degree a millimetre. All are drawn from the generator; `error` scales the draws.
+        Raises UsageError in a world in which nothing is misplaced.
+        """
+        if rng is not None:
+            raise UsageError(f"--error: nothing is misplaced in the world of {self.domain.spec.name}")
+
     def flaws(self, state: State) -> Sequence[str]:
         """Why no plan can begin from a state, a sentence for each reason; asked before any draw."""
         return ()
