@@ -1,31 +1,22 @@
 """The field test: plans that the world accepted are carried out again and again, with small errors each time.
 
-Fixed programs are searched as by preset `best`, with and without rehearsals; every plan found is carried out
-in the execution world under disturbances of its own, and the judge looks at the outcome. No LLM.
+Every plan is carried out in the execution world with errors of its own, in several engines if these are
+wanted, and the judge looks at the outcome. No LLM.
 """
 
-from collections.abc import Iterator, Sequence
+import itertools
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-import numpy as np
-
-from proc3s.benchmark.cases import Case
-from proc3s.domain.values import Plan
-from proc3s.domain.world import make_world
-from proc3s.errors import UsageError
-from proc3s.planning.grounding import open_sketch
-from proc3s.planning.options import RunOptions
-from proc3s.planning.parts import Setup
-from proc3s.planning.setup import make_setup
+from proc3s.benchmark.candidates import Candidate
+from proc3s.domain.domain import Domain
+from proc3s.domain.world import World
+from proc3s.domain.world_options import with_world_options, world_used
+from proc3s.planning.repetition import repeat, repetitions
 from proc3s.plugins.registry import Registry
-from proc3s.search.evaluator import Evaluator
-from proc3s.search.problem import Problem
-from proc3s.search.rollout import carry_out, judge
-from proc3s.search.start import start_search
-from proc3s.search.trial import Trial
 
-SEED = 2**30
-"""Disturbances of field tests are drawn from other seeds than those of rehearsals."""
+ENGINE = "execution"
+"""The option of a world that names the engine in which accepted plans are carried out."""
 
 
 @dataclass(frozen=True)
@@ -33,6 +24,7 @@ class FieldTest:
     """What became of the plan found for a case and a seed, with so many rehearsals before it was accepted.
 
     `satisfied` counts the outcomes, of `times`, with which the judge was satisfied; none without a plan.
+    `engine` is None where the world does not say it; `error_mm` is None for disturbances.
     """
 
     case: str
@@ -41,75 +33,73 @@ class FieldTest:
     solved: bool
     samples: int
     rehearsals: int
+    engine: str | None
+    error_mm: float | None
     times: int
     satisfied: int
 
 
-def judged(cases: Sequence[Case], registry: Registry) -> list[Case]:
-    """The cases whose task has a judge and whose world knows disturbances. Raises UsageError if none has."""
-    found = [case for case in cases if _testable(case, registry)]
-    if not found:
-        raise UsageError("none of these programs has a task with a judge and a world with disturbances")
-    return found
+@dataclass(frozen=True)
+class Conditions:
+    """How plans are carried out: how often, in which engines, and how far off things are at most (mm).
+
+    None stands for the engine of the domain, and for disturbances.
+    """
+
+    times: int
+    engines: Sequence[str | None] = (None,)
+    errors_mm: Sequence[float | None] = (None,)
+
+    def fit(self, registry: Registry, task: str) -> bool:
+        """Whether a task has a judge, and a world that knows such errors."""
+        domain, spec = registry.task(task)
+        worlds = [target.load() for target in (domain.spec.world, domain.spec.execution or domain.spec.world)]
+        if None in self.errors_mm and any(world.disturb is World.disturb for world in worlds):
+            return False
+        return bool(spec.judge) and (not any(self.errors_mm) or worlds[-1].misplace is not World.misplace)
+
+    def require(self, domains: Sequence[Domain], world: Mapping[str, str]) -> None:
+        """Raises UsageError or SpecError where a world has not these options, or not these engines."""
+        for domain, engine in itertools.product(domains, self.engines):
+            with_world_options(domain, {**world, **_chosen(engine)})
 
 
-def _testable(case: Case, registry: Registry) -> bool:
-    from proc3s.domain.world import World
-
-    domain, task = registry.task(case.task)
-    targets = [domain.spec.world, domain.spec.execution or domain.spec.world]
-    return bool(task.judge) and all(target.load().disturb is not World.disturb for target in targets)
-
-
-def field_tests(
-    registry: Registry, case: Case, seed: int, robust: Sequence[int], times: int, samples: int | None
-) -> Iterator[FieldTest]:
-    """Find a plan with each number of rehearsals, and carry it out so many times."""
-    for rehearsals in robust:
-        setup = _setup(registry, case, seed, rehearsals, samples)
-        try:
-            evaluator, solution = _search(setup, case.program)
-        finally:
-            setup.executor.close()
-        plan = solution.plan if solution else None
+def field_tests(registry: Registry, candidate: Candidate, conditions: Conditions) -> Iterator[FieldTest]:
+    """Carry the plan of a candidate out in each engine, with each error, so many times."""
+    for engine, error_mm in itertools.product(conditions.engines, conditions.errors_mm):
+        times, satisfied = _carried_out(registry, candidate, conditions.times, engine, error_mm)
         yield FieldTest(
-            case=case.label,
-            robust=rehearsals,
-            seed=seed,
-            solved=plan is not None,
-            samples=evaluator.samples,
-            rehearsals=evaluator.rehearsals,
-            times=times if plan else 0,
-            satisfied=sum(outcomes(setup.problem, plan, times)) if plan else 0,
+            case=candidate.case,
+            robust=candidate.options.robust,
+            seed=candidate.options.seed,
+            solved=candidate.known is not None,
+            samples=candidate.samples,
+            rehearsals=candidate.rehearsals,
+            engine=_used(registry, candidate, engine),
+            error_mm=error_mm,
+            times=times,
+            satisfied=satisfied,
         )
 
 
-def _setup(registry: Registry, case: Case, seed: int, robust: int, samples: int | None) -> Setup:
-    given = {"task": case.task, "seed": seed, "robust": robust, "samples": samples}
-    options = RunOptions.model_validate({**given, "domain_options": case.scene, "world_options": case.world})
-    return make_setup(registry, options, goal_needed=False)
+def _carried_out(
+    registry: Registry, candidate: Candidate, times: int, engine: str | None, error_mm: float | None
+) -> tuple[int, int]:
+    """How often a plan was carried out, and how often the judge was satisfied."""
+    known = candidate.known
+    if known is None:
+        return 0, 0
+    problem = known.problem(registry, _chosen(engine))
+    satisfied = sum(one.reached is True for one in repeat(problem, known.plan, times, error_mm))
+    return repetitions(times, error_mm), satisfied
 
 
-def _search(setup: Setup, program: str) -> tuple[Evaluator, Trial | None]:
-    problem = setup.problem
-    with open_sketch(setup, program) as opened:
-        evaluator = Evaluator(problem, opened.sketch, setup.executor)
-        search = start_search(evaluator, setup.make_solver, problem.samples)
-        search.advance(problem.samples)
-        if search.broken_off is not None:
-            raise search.broken_off
-        return evaluator, search.solution
+def _used(registry: Registry, candidate: Candidate, engine: str | None) -> str | None:
+    """The engine by its name, as the world says it."""
+    domain, _ = registry.task(candidate.options.task)
+    options = {**candidate.options.world_options, **_chosen(engine)}
+    return world_used(with_world_options(domain, options)).get(ENGINE)
 
 
-def outcomes(problem: Problem, plan: Plan, times: int) -> Iterator[bool]:
-    """Whether the judge is satisfied, each time that a plan is carried out with other small errors."""
-    spec = problem.domain.spec
-    world = make_world(problem.domain, spec.execution or spec.world)
-    try:
-        for k in range(times):
-            world.disturb(np.random.default_rng([SEED, problem.seed, k]))
-            _, final = carry_out(world, problem, plan, stop=False)
-            score, _ = judge(problem, final, plan)
-            yield score is not None and score.reached
-    finally:
-        world.close()
+def _chosen(engine: str | None) -> dict[str, str]:
+    return {ENGINE: engine} if engine else {}

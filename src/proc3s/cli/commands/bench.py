@@ -123,14 +123,41 @@ def execution(
     *,
     tasks: Programs = None,
     seeds: Seeds = None,
+    runs: Annotated[
+        Path | None,
+        typer.Option(
+            "--runs",
+            metavar="DIR",
+            help="take the accepted plans of these runs, or of a suite's, and search none",
+            rich_help_panel="Episodes",
+        ),
+    ] = None,
     given: Annotated[a.Given, a.fields("samples", "robust", "world_options", "plugins")],
+    engines: Annotated[
+        Many,
+        typer.Option(
+            "--engines",
+            metavar="NAMES",
+            help="carry every plan out in each, with commas: values of -W execution=…",
+            rich_help_panel="World",
+        ),
+    ] = None,
+    error: Annotated[
+        Many,
+        typer.Option(
+            "--error",
+            metavar="MM",
+            help="everything stands and is put down up to MM off; several with commas",
+            rich_help_panel="World",
+        ),
+    ] = None,
     times: Annotated[
         int,
         typer.Option(
             "--times",
             metavar="N",
             min=1,
-            help="how often every plan is carried out",
+            help="how often every plan is carried out; once where the error is 0",
             rich_help_panel="World",
         ),
     ] = 10,
@@ -139,13 +166,32 @@ def execution(
 ) -> None:
     """Measure how often plans reach the goal when they are carried out with small errors.
 
-    Plans that were rehearsed (--robust, 2 if it is not given) are compared with those that were not.
+    Plans that were rehearsed (--robust, 2 if it is not given) are compared with those that were not. Without
+    --error the world is disturbed as in rehearsals. With it, the table and hold_rates.svg say how often plans
+    hold with which error.
     """
     from proc3s.cli.handlers.bench_execution import FieldTestWanted, run_field_test
 
-    run_field_test(
-        FieldTestWanted(**given, tasks=_split("--tasks", tasks), seeds=seeds or 5, times=times), out, json
+    wanted = FieldTestWanted(
+        **given,
+        tasks=_split("--tasks", tasks),
+        seeds=seeds,
+        times=times,
+        engines=_split("--engines", engines),
+        error=_numbers("--error", error),
+        runs=runs,
     )
+    run_field_test(wanted, out, json)
+
+
+def _numbers(flag: str, given: Many) -> tuple[float, ...]:
+    """Numbers with commas between them, each once. Raises UsageError."""
+    from proc3s.errors import UsageError
+
+    try:
+        return tuple(dict.fromkeys(float(text) for text in _split(flag, given)))
+    except ValueError as error:
+        raise UsageError(f"{flag} takes numbers with commas between them: {error}") from error
 
 
 def _split(flag: str, given: Many) -> tuple[str, ...]:

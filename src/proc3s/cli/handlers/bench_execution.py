@@ -1,101 +1,207 @@
-"""The field test from the command line, as a table and as files."""
+"""The field test from the command line, as a table, a chart and files."""
 
 import itertools
-from collections.abc import Generator, Sequence
+from collections.abc import Callable, Generator, Sequence
 from dataclasses import asdict, dataclass
 from datetime import UTC, datetime
+from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias, TypeVar
 
 from rich.console import Console
 
+from proc3s.benchmark.candidates import Candidate, saved, searched
 from proc3s.benchmark.cases import Case, find_cases
-from proc3s.benchmark.execution_test import FieldTest, field_tests, judged
+from proc3s.benchmark.execution_test import Conditions, FieldTest, field_tests
 from proc3s.cli.console.tables import print_table
-from proc3s.cli.handlers.bench import deliver, go_through, made_folder
-from proc3s.errors import Proc3sError
+from proc3s.cli.failures import say
+from proc3s.cli.handlers.bench import deliver, go_through, made_folder, write
+from proc3s.cli.handlers.runs import run_folders
+from proc3s.errors import Proc3sError, UsageError
+from proc3s.planning.options import key_values
+from proc3s.planning.repetition import require_error
 from proc3s.plugins.registry import Registry, open_registry
 from proc3s.plugins.versions import versions
+from proc3s.suites.hold_rates import HoldRate, chart, hold_rates
 from proc3s.suites.lock import alone_in
+from proc3s.wording import count
 
-HEAD = ("program", "rehearsals", "solved", "samples", "satisfied", "share")
+CHART = "hold_rates.svg"
+SEEDS, ROBUST = 5, 2
+"""Of fixed programs, where the command line says nothing."""
+Work: TypeAlias = Sequence[Callable[[], Candidate]]
+"""What finds the plans to be tested, one by one."""
+T = TypeVar("T", Case, Candidate)
 
 
 @dataclass(frozen=True)
 class FieldTestWanted:
-    """What `proc3s bench execution` was asked to do; no task stands for all of them."""
+    """What `proc3s bench execution` was asked to do; no task stands for all of them.
+
+    Without `engines` that of the domain, without `error` (mm) disturbances, without `runs` fixed programs.
+    """
 
     tasks: tuple[str, ...]
-    seeds: int
     times: int
+    seeds: int | None = None
     samples: int | None = None
-    robust: int = 2
+    robust: int | None = None
+    engines: tuple[str, ...] = ()
+    error: tuple[float, ...] = ()
+    runs: Path | None = None
     world_options: Sequence[str] = ()
     plugins: Sequence[Path] = ()
+
+    @property
+    def conditions(self) -> Conditions:
+        """How plans are carried out."""
+        return Conditions(self.times, self.engines or (None,), self.error or (None,))
+
+    @property
+    def compares(self) -> bool:
+        """Whether engines, errors or runs were asked for; the table then says more."""
+        return bool(self.engines or self.error or self.runs)
 
 
 def run_field_test(wanted: FieldTestWanted, out: Path | None, as_json: bool) -> None:
     """Test, print and write. What is done when it is interrupted is kept. Raises UsageError."""
+    for error in wanted.error:
+        require_error(error)
     registry = open_registry(wanted.plugins)
-    cases = judged(find_cases(registry, wanted.tasks, wanted.world_options), registry)
+    work = _plans(registry, wanted, wanted.runs) if wanted.runs else _searches(registry, wanted)
     folder, done = made_folder(out, "execution"), list[FieldTest]()
     with alone_in(folder):
-        stopped = go_through(_test(registry, cases, wanted, done), as_json)
-        deliver(folder, _document(wanted, done, stopped), as_json)
+        stopped = go_through(_test(registry, work, wanted.conditions, done), as_json)
+        rates = hold_rates(done)
+        if drawn := chart(rates):
+            write(folder / CHART, drawn)
+        deliver(folder, _document(wanted, done, rates, stopped), as_json)
         if not as_json:
-            _print(done, folder)
+            _print(rates, folder, wanted.compares)
     if stopped is not None:
         raise stopped
 
 
-def _test(
-    registry: Registry, cases: Sequence[Case], wanted: FieldTestWanted, done: list[FieldTest]
-) -> Generator[str]:
-    """Fill the tests that are done; tells what it does next."""
-    robust = tuple(dict.fromkeys((0, wanted.robust)))
-    for case, seed in itertools.product(cases, range(wanted.seeds)):
-        yield f"{case.label} seed {seed}"
-        done.extend(field_tests(registry, case, seed, robust, wanted.times, wanted.samples))
+def _searches(registry: Registry, wanted: FieldTestWanted) -> Work:
+    """Searches of fixed programs, with and without rehearsals. Raises UsageError if none can be tested."""
+    cases = find_cases(registry, wanted.tasks, wanted.world_options)
+    fit = _fit(registry, wanted, cases)
+    if not fit:
+        raise UsageError("none of these programs has a task with a judge and a world with disturbances")
+    robust = dict.fromkeys((0, ROBUST if wanted.robust is None else wanted.robust))
+    seeds = range(SEEDS if wanted.seeds is None else wanted.seeds)
+    return [
+        partial(searched, registry, case, seed, rehearsals, wanted.samples)
+        for case, seed, rehearsals in itertools.product(fit, seeds, robust)
+    ]
+
+
+def _plans(registry: Registry, wanted: FieldTestWanted, folder: Path) -> Work:
+    """The plans of runs. Raises UsageError if none can be tested, or for an option of searches."""
+    searching = {"--seeds": wanted.seeds, "--samples": wanted.samples, "--robust": wanted.robust}
+    for flag, value in searching.items():
+        if value is not None:
+            raise UsageError(f"--runs takes plans that are there, and searches none; leave {flag} out")
+    runs = run_folders(folder)
+    fit = _fit(registry, wanted, [*saved(runs, wanted.tasks, key_values([*wanted.world_options]))])
+    if not fit:
+        raise UsageError(f"no run in {folder} has an accepted plan, a judge, and a world with such errors")
+    if (left := len(runs) - len(fit)) and not wanted.tasks:
+        say([f"{left} of {len(runs)} runs are left out: no accepted plan, no judge, or no such errors"])
+    return [partial(_there, one) for one in fit]
+
+
+def _there(candidate: Candidate) -> Candidate:
+    return candidate
+
+
+def _fit(registry: Registry, wanted: FieldTestWanted, some: Sequence[T]) -> list[T]:
+    """Those whose task can be tested. Raises UsageError for an option that their world does not have."""
+    fit = [one for one in some if wanted.conditions.fit(registry, one.task)]
+    names = dict.fromkeys(one.task.partition("/")[0] for one in (some if wanted.tasks else fit))
+    domains = [registry.domain(name) for name in names]
+    wanted.conditions.require(domains, key_values([*wanted.world_options]))
+    return fit
+
+
+def _test(registry: Registry, work: Work, conditions: Conditions, done: list[FieldTest]) -> Generator[str]:
+    """Fill the tests that are done; tells of each."""
+    of = len(work) * len(conditions.engines) * len(conditions.errors_mm)
+    for find in work:
+        for test in field_tests(registry, find(), conditions):
+            done.append(test)
+            yield f"[{len(done)}/{of}] {_told(test)}"
+
+
+def _told(test: FieldTest) -> str:
+    """A test in a line."""
+    rehearsed = count(test.robust, "rehearsal") if test.robust else ""
+    error = "" if test.error_mm is None else f"{test.error_mm:g} mm"
+    outcome = f"{test.satisfied} of {test.times} hold" if test.solved else "no plan"
+    parts = (f"{test.case} seed {test.seed}", rehearsed, test.engine, error)
+    return f"{', '.join(part for part in parts if part)}: {outcome}"
 
 
 def _document(
-    wanted: FieldTestWanted, done: Sequence[FieldTest], error: Proc3sError | None
+    wanted: FieldTestWanted, done: Sequence[FieldTest], rates: Sequence[HoldRate], error: Proc3sError | None
 ) -> dict[str, Any]:
     return {
         "options": {
             "suite": "execution",
             **asdict(wanted),
+            "runs": str(wanted.runs) if wanted.runs else None,
             "plugins": [str(path) for path in wanted.plugins],
         },
         "time": datetime.now(UTC).isoformat(timespec="seconds"),
         "versions": versions(),
         "error": str(error) if error else None,
-        "rows": [dict(zip(HEAD, row, strict=True)) for row in _rows(done)],
+        "rows": [_row(rate) for rate in rates],
         "tests": [asdict(test) for test in done],
     }
 
 
-def _rows(done: Sequence[FieldTest]) -> list[tuple[Any, ...]]:
-    """One row for every case and number of rehearsals, and one for all cases together."""
-    keys = dict.fromkeys((test.case, test.robust) for test in done)
-    rows = [
-        _row(case, robust, [t for t in done if (t.case, t.robust) == (case, robust)]) for case, robust in keys
-    ]
-    for robust in dict.fromkeys(test.robust for test in done):
-        rows.append(_row("all", robust, [test for test in done if test.robust == robust]))
-    return rows
+def _row(one: HoldRate) -> dict[str, Any]:
+    return {
+        "program": one.program,
+        "rehearsals": one.rehearsals,
+        "engine": one.engine,
+        "error_mm": one.error_mm,
+        "solved": f"{one.plans}/{len(one.tests)}",
+        "samples": one.samples,
+        "satisfied": f"{one.held}/{one.times}",
+        "share": round(one.rate.value, 4) if one.rate else None,
+        "low": round(one.rate.low, 4) if one.rate else None,
+        "high": round(one.rate.high, 4) if one.rate else None,
+    }
 
 
-def _row(case: str, robust: int, tests: Sequence[FieldTest]) -> tuple[Any, ...]:
-    times, satisfied = sum(test.times for test in tests), sum(test.satisfied for test in tests)
-    solved, samples = sum(test.solved for test in tests), sum(test.samples for test in tests)
-    share = round(satisfied / times, 4) if times else None
-    return case, robust, f"{solved}/{len(tests)}", samples, f"{satisfied}/{times}", share
-
-
-def _print(done: Sequence[FieldTest], folder: Path) -> None:
+def _print(rates: Sequence[HoldRate], folder: Path, compares: bool) -> None:
     console = Console(highlight=False)
     console.print("Plans carried out with small errors")
-    lines = [[*map(str, cells), "" if share is None else f"{share:.1%}"] for *cells, share in _rows(done)]
-    print_table(console, HEAD, lines, keys=2)
+    print_table(console, *_compared(rates) if compares else _plain(rates), keys=2)
     console.print(f"folder   {folder}", soft_wrap=True)
+
+
+def _plain(rates: Sequence[HoldRate]) -> tuple[Sequence[str], list[list[str]]]:
+    """What was searched, and how often its plans hold."""
+    head = ("program", "rehearsals", "solved", "samples", "satisfied", "share")
+    rows = [[str(cell) for name, cell in _row(one).items() if name in head[:-1]] for one in rates]
+    return head, [
+        [*row, f"{one.rate.value:.1%}" if one.rate else ""] for row, one in zip(rows, rates, strict=True)
+    ]
+
+
+def _compared(rates: Sequence[HoldRate]) -> tuple[Sequence[str], list[list[str]]]:
+    """How often plans hold in each engine with each error."""
+    head = ("program", "robust", "engine", "mm", "plans", "held", "%", "95 % interval")
+    lines = [
+        [
+            *(one.program, str(one.rehearsals), one.engine or ""),
+            "" if one.error_mm is None else f"{one.error_mm:g}",
+            *(str(one.plans), f"{one.held}/{one.times}"),
+            f"{100 * one.rate.value:.0f}" if one.rate else "",
+            f"{100 * one.rate.low:.0f} to {100 * one.rate.high:.0f}" if one.rate else "",
+        ]
+        for one in rates
+    ]
+    return head, lines

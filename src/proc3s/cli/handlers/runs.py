@@ -35,11 +35,14 @@ def chosen_run(run: Path | None) -> Path:
     return itself(named if not run.exists() and (named / LOG).is_file() else run)
 
 
+def run_folders(folder: Path) -> list[Path]:
+    """The run folders in a folder of runs, or of a suite, the one that began last first."""
+    return runs_of(folder / runner.RUNS if (folder / FILE).is_file() else folder)
+
+
 def print_runs(folder: Path, limit: int, as_json: bool) -> None:
     """Print a line or two about each run. Raises UsageError if the folder holds none."""
-    if (folder / FILE).is_file():
-        folder /= runner.RUNS
-    paths, suites = runs_of(folder), sorted(path.parent for path in folder.glob(f"*/{FILE}"))
+    paths, suites = run_folders(folder), sorted(path.parent for path in folder.glob(f"*/{FILE}"))
     if not paths and not suites and not as_json:
         raise UsageError(f"there is no run in {folder}; try `proc3s run drawing/star`")
     shown = [listed(path) for path in paths[: limit or None]]

@@ -1,0 +1,105 @@
+"""How often plans hold: counts of field tests with Wilson's intervals, as rows and as a chart."""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import matplotlib as mpl
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+
+from proc3s.benchmark.execution_test import FieldTest
+from proc3s.reporting.charts import STYLE, colors_of, svg
+from proc3s.suites.statistics import Estimate, wilson
+from proc3s.wording import count
+
+ALL = "all"
+
+
+@dataclass(frozen=True)
+class HoldRate:
+    """The field tests of a program (or all), with so many rehearsals, in an engine, with an error."""
+
+    program: str
+    rehearsals: int
+    engine: str | None
+    error_mm: float | None
+    tests: tuple[FieldTest, ...]
+
+    @property
+    def plans(self) -> int:
+        """Searches that found a plan."""
+        return sum(test.solved for test in self.tests)
+
+    @property
+    def samples(self) -> int:
+        """Of all searches."""
+        return sum(test.samples for test in self.tests)
+
+    @property
+    def times(self) -> int:
+        """How often plans were carried out."""
+        return sum(test.times for test in self.tests)
+
+    @property
+    def held(self) -> int:
+        """How often the judge was satisfied."""
+        return sum(test.satisfied for test in self.tests)
+
+    @property
+    def rate(self) -> Estimate | None:
+        """The share that held with Wilson's 95 % interval; None where nothing was carried out."""
+        return wilson(self.held, self.times) if self.times else None
+
+
+def hold_rates(done: Sequence[FieldTest]) -> list[HoldRate]:
+    """One for every program, number of rehearsals, engine and error, and one for all programs together."""
+    of_programs = _grouped((test.case, test) for test in done)
+    return [*of_programs, *_grouped((ALL, test) for test in done)]
+
+
+def _grouped(named: Iterable[tuple[str, FieldTest]]) -> list[HoldRate]:
+    groups: dict[tuple[str, int, str | None, float | None], list[FieldTest]] = {}
+    for name, test in named:
+        groups.setdefault((name, test.robust, test.engine, test.error_mm), []).append(test)
+    return [HoldRate(*key, tuple(tests)) for key, tests in groups.items()]
+
+
+def chart(rates: Sequence[HoldRate]) -> str | None:
+    """Hold rates of all programs over the error as SVG, a line for each engine and number of rehearsals.
+
+    None where no error was given, or no plan carried out.
+    """
+    lines: dict[str, list[tuple[float, Estimate]]] = {}
+    for one in rates:
+        if one.program == ALL and one.error_mm is not None and one.rate:
+            lines.setdefault(_label(one), []).append((one.error_mm, one.rate))
+    if not lines:
+        return None
+    with mpl.rc_context(STYLE):
+        figure = Figure(figsize=(6.2, 3.4), layout="constrained")
+        axes = figure.subplots()
+        for k, (name, color) in enumerate(colors_of([*lines]).items()):
+            _draw(axes, sorted(lines[name]), name, color, k - (len(lines) - 1) / 2)
+        axes.set_ylim(0, 104)
+        axes.xaxis.set_major_locator(MaxNLocator(integer=True))
+        axes.set_xlabel("largest error of stands and placements, mm (and half as many degrees)")
+        axes.set_ylabel("% of outcomes that satisfy the judge")
+        axes.legend(frameon=False, fontsize=8, loc="lower left")
+        return svg(figure)
+
+
+def _label(one: HoldRate) -> str:
+    rehearsed = count(one.rehearsals, "rehearsal") if one.rehearsals else "no rehearsals"
+    return f"{one.engine}, {rehearsed}" if one.engine else rehearsed
+
+
+def _draw(axes: Axes, points: list[tuple[float, Estimate]], name: str, color: str, aside: float) -> None:
+    """A line with its intervals, a little aside, so that those of several lines can be told apart."""
+    apart = 0.012 * max(error for error, _ in points)
+    x = [error + aside * apart for error, _ in points]
+    y = [100 * rate.value for _, rate in points]
+    away = [[100 * (r.value - r.low) for _, r in points], [100 * (r.high - r.value) for _, r in points]]
+    axes.errorbar(
+        x, y, yerr=away, color=color, label=name, marker="o", markersize=4, capsize=3, linewidth=1.2
+    )
