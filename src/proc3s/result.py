@@ -18,7 +18,9 @@ from proc3s.domain.world import make_world
 from proc3s.errors import UsageError
 from proc3s.feedback.report import Diagnosis
 from proc3s.llm.budget import Spent
+from proc3s.planning.known_plan import plan_of
 from proc3s.planning.options import RunOptions
+from proc3s.planning.repetition import Repetition, repeat, require_error
 from proc3s.planning.setup import make_problem
 from proc3s.planning.summary import Summary
 from proc3s.plugins.registry import Registry, open_registry
@@ -158,6 +160,18 @@ class Result:
         finally:
             world.close()
         return tuple(seen)
+
+    def execute(
+        self, error_mm: float = 0.0, times: int = 10, world_options: Mapping[str, Any] | None = None
+    ) -> list[Repetition]:
+        """The verdict each time that the plan is carried out with things up to `error_mm` off (0: once).
+
+        `world_options` replace those of the run. Raises UsageError without a plan.
+        """
+        changed = {name: str(value) for name, value in (world_options or {}).items()}
+        known = plan_of(self.run_dir)
+        problem = known.problem(self._registry, changed)
+        return [*repeat(problem, known.plan, times, require_error(error_mm))]
 
     def picture(self, step: int | None = None) -> "Image":
         """The outcome, of an unsolved run its nearest miss, or the world after a step (from 0), where it

@@ -46,8 +46,9 @@ class KnownPlan:
         return dataclasses.replace(made, scene=self.begun.get("scene", made.scene), step_limit=clock.step)
 
     def changes(self, registry: Registry) -> Iterator[str]:
-        """What is not as it was when the run began, a sentence each."""
-        now = make_problem(registry, self.options, goal_needed=False)
+        """What is not as it was when the run began, a sentence each; whatever options its world has."""
+        plain = self.options.model_copy(update={"world_options": {}})
+        now = make_problem(registry, plain, goal_needed=False)
         if self.begun.get("scene", now.scene) != now.scene:
             yield f"{now.name} has another scene for this seed now; that of the run is used"
         if self.begun.get("goal", now.goal) != now.goal:

@@ -84,8 +84,8 @@ def chart(rates: Sequence[HoldRate]) -> str | None:
         axes.set_ylim(0, 104)
         axes.xaxis.set_major_locator(MaxNLocator(integer=True))
         axes.set_xlabel("largest error of stands and placements, mm (and half as many degrees)")
-        axes.set_ylabel("% of outcomes that satisfy the judge")
-        axes.legend(frameon=False, fontsize=8, loc="lower left")
+        axes.set_ylabel("% that reach the goal, 95 % intervals")
+        figure.legend(frameon=False, fontsize=8, loc="outside upper center", ncols=2)
         return svg(figure)
 
 

@@ -87,7 +87,8 @@ def _searches(registry: Registry, wanted: FieldTestWanted) -> Work:
     cases = find_cases(registry, wanted.tasks, wanted.world_options)
     fit = _fit(registry, wanted, cases)
     if not fit:
-        raise UsageError("none of these programs has a task with a judge and a world with disturbances")
+        errors = "such errors" if wanted.error else "disturbances"
+        raise UsageError(f"none of these programs has a task with a judge and a world with {errors}")
     robust = dict.fromkeys((0, ROBUST if wanted.robust is None else wanted.robust))
     seeds = range(SEEDS if wanted.seeds is None else wanted.seeds)
     return [
