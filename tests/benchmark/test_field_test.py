@@ -46,7 +46,7 @@ def test_plans_of_programs_are_carried_out_in_each_engine_with_each_error(bench,
         "%",
         "interval",
     ]
-    assert lines[2].split() == "pegs/middle.aim 0 felt 0 2 2/2 100 34 to 100".split()
+    assert lines[2].split() == ["pegs/middle.aim", "0", "felt", "0", "2", "2/2", "100", "34", "to", "100"]
     assert result.stderr.splitlines()[0] == "[1/24] pegs/middle.aim seed 0, felt, 0 mm: 1 of 1 hold"
     assert ElementTree.parse(here / "field/hold_rates.svg").getroot().tag.endswith("svg")
 
