@@ -37,6 +37,7 @@ from .llm.types import answer as answer
 from .llm.types import digest as digest
 from .llm.usage import Usage as Usage
 from .markers import hookimpl as hookimpl
+from .planning.repetition import Repetition as Repetition
 from .plugins.loose_files import import_loose_file as import_loose_file
 from .plugins.loose_files import loose_files as loose_files
 from .redaction import platform_name as platform_name

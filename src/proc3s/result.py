@@ -164,7 +164,7 @@ class Result:
     def execute(
         self, error_mm: float = 0.0, times: int = 10, world_options: Mapping[str, Any] | None = None
     ) -> list[Repetition]:
-        """The verdict each time that the plan is carried out with things up to `error_mm` off (0: once).
+        """The verdict each time that the plan is carried out with things up to `error_mm` (mm) off; 0: once.
 
         `world_options` replace those of the run. Raises UsageError without a plan.
         """
