@@ -3,7 +3,7 @@
     python tests/mujoco_tabletop/agreement.py blocks/pyramid blocks/packing --plans 200
 
 Plans come from the bundled program and from all of the benchmark, half of each one's accepted and half
-refused by PyBullet as far as there are such. Each is judged three times by each engine, every object moved
+refused by PyBullet as far as there are both. Each is judged three times by each engine, every object moved
 by up to 0.5 mm; clear is a plan on which each engine gives one verdict.
 """
 
@@ -64,17 +64,17 @@ def verdict(world, problem, plan):
 
 
 def plans(problem, known, source, wanted) -> Iterator:
-    """Plans of a program, at most half of those wanted accepted, at most half refused."""
-    rest = {True: wanted // 2, False: wanted - wanted // 2}
+    """So many plans of a program, half accepted and half refused as far as its first draws have both."""
+    kinds = {True: [], False: []}
     with box(problem.domain, source, "sketch", problem.initial) as sketch:
-        batch = sketch.plans(np.random.default_rng(0).random((20 * wanted, sketch.space.dim)), first=0)
+        batch = sketch.plans(np.random.default_rng(0).random((4 * wanted, sketch.space.dim)), first=0)
         for plan in (batch.plan(k) for k in range(len(batch)) if k not in batch.errors):
-            kind = verdict(known, problem, plan) == "accepted"
-            if rest[kind] > 0:
-                rest[kind] -= 1
-                yield plan
-            if not any(rest.values()):
+            kinds[verdict(known, problem, plan) == "accepted"].append(plan)
+            if min(map(len, kinds.values())) >= wanted // 2 and sum(map(len, kinds.values())) >= wanted:
                 break
+    few, many = sorted(kinds.values(), key=len)
+    few = few[: wanted // 2]
+    yield from (*few, *many[: wanted - len(few)])
 
 
 def judged(made, problem, plan, rng):
