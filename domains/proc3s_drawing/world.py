@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pymunk
 
 from proc3s import FloatArray, Margin, Plan, State, Transition, World
 
@@ -40,7 +39,9 @@ class Canvas(World[Stroke]):
             self._build()
 
     def _build(self) -> None:
-        self._space = pymunk.Space()
+        import pymunk  # here: `proc3s show` imports this module to list what may be chosen
+
+        self._space, self._everything = pymunk.Space(), pymunk.ShapeFilter()
         body = self._space.static_body
         for obstacle in self.state.obstacles:
             centre = (obstacle.x_pos, obstacle.y_pos)
@@ -58,7 +59,7 @@ class Canvas(World[Stroke]):
         if not self._discs:
             return Stroke(np.inf, None)
         # A query with a radius misses grazing hits: the discs are inflated instead.
-        hits = self._space.segment_query(p1, p2, 0.0, pymunk.ShapeFilter())
+        hits = self._space.segment_query(p1, p2, 0.0, self._everything)
         touched = {id(hit.shape) for hit in hits}
         distance = np.abs(_distances(self._centres, p1, p2) - self._radii)
         signed = np.where([id(disc) in touched for disc in self._discs], -distance, distance)

@@ -82,16 +82,17 @@ def counting(here):
     return ("--llm", "counting", "--plugin", "counting.py")
 
 
-@pytest.mark.parametrize("package", ["pybullet", "airo_models"])
-def test_an_extra_that_is_missing_costs_no_answer(shell, here, counting, package):
+@pytest.mark.parametrize("missing", [("pybullet", "mujoco"), ("airo_models",)])
+def test_an_extra_that_is_missing_costs_no_answer(shell, here, counting, missing):
     hidden = here / "hidden"
     hidden.mkdir()
-    (hidden / f"{package}.py").write_text(
-        f"raise ModuleNotFoundError('No module named {package}', name={package!r})"
-    )
+    for name in missing:
+        (hidden / f"{name}.py").write_text(
+            f"raise ModuleNotFoundError('No module named {name}', name={name!r})"
+        )
     result = shell("run", "blocks/pyramid", *counting, env={"PYTHONPATH": str(hidden)})
     assert result.code == 2
-    assert f"the table-top needs {package}: pip install 'proc3s[tabletop]'" in result.stderr
+    assert f"the table-top needs {missing[0]}: pip install 'proc3s[tabletop]'" in result.stderr
     assert not (here / "asked").exists()
     assert not (here / "runs").exists()
 
