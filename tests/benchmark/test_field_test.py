@@ -91,8 +91,20 @@ def test_the_plans_of_runs_are_taken_as_they_are(bench, runs):
         ("all", "0", "2/2"),
         ("all", "1", "4/4"),
     ]
+    missing = bench("--runs", runs, "--plugin", PLUGIN, "--tasks", "peg")
+    assert "these runs have no accepted plan for 'peg'; did you mean 'pegs'" in missing.stderr
     fewer = ("--runs", runs, "--plugin", PLUGIN, "--error", 0, "--json")
     assert len(bench(*fewer, "--tasks", "pegs/middle").json["tests"]) == 2
+
+
+def test_a_plan_that_several_runs_have_counts_once_and_a_run_may_be_named_itself(bench, cli, runs, here):
+    cli("replay", runs / "0", "--plugin", PLUGIN, "--out", "mine/again")
+    result = bench("--runs", runs, "--plugin", PLUGIN, "--error", 0, "--engines", "ice,ice")
+    assert "1 run more with the plan of another one: each plan counts once" in result.stderr
+    tests = json.loads((here / "field/results.json").read_text())["tests"]
+    assert len(tests) == 2
+    assert {Path(test["run"]).parent.name for test in tests} == {"mine"}
+    assert len(bench("--runs", runs / "1", "--plugin", PLUGIN, "--error", 0, "--json").json["tests"]) == 1
 
 
 @pytest.mark.parametrize(
@@ -101,16 +113,16 @@ def test_the_plans_of_runs_are_taken_as_they_are(bench, runs):
         (("--tasks", "drawing/star.open", "--error", 1), "a world with such errors"),
         (
             ("--tasks", "drawing/star.open", "--engines", "ice"),
-            "the world of drawing has no option 'execution'",
+            "--engines: the world of drawing has no engines to choose from",
         ),
         ((*AIM, "--engines", "sand"), "not 'sand'"),
         ((*AIM, "--error", "1,two"), "--error takes numbers with commas between them"),
         ((*AIM, "--error", "1,-2"), "an error is 0 to 50 mm, not -2"),
         ((*AIM, "--error", ""), "--error is empty"),
-        (("--runs", "nowhere", "--error", 1), "no run in nowhere"),
+        (("--runs", "nowhere", "--error", 1), "there is no folder nowhere"),
         (("--runs", ".", "--seeds", 2), "leave --seeds out"),
         (("--runs", ".", "--robust", 2), "leave --robust out"),
-        (("--runs", ".", "--tasks", "pegs"), "these runs have no accepted plan for 'pegs'"),
+        (("--runs", ".", "--tasks", "pegs"), "there is no run in ."),
     ],
 )
 def test_what_cannot_be_tested_is_a_usage_error_in_a_line(bench, here, args, said):
@@ -122,7 +134,7 @@ def test_what_cannot_be_tested_is_a_usage_error_in_a_line(bench, here, args, sai
 
 
 def made(engine, error_mm, satisfied, times=10, robust=0, case="a/b.c"):
-    return FieldTest(case, robust, 0, True, 5, 0, engine, error_mm, times, satisfied)
+    return FieldTest(case, None, robust, 0, True, 5, 0, engine, error_mm, times, satisfied)
 
 
 def test_rates_pool_the_plans_of_a_program_and_those_of_all():

@@ -42,7 +42,7 @@ def stepped(**worlds):
 
 
 def test_a_world_without_options_takes_none():
-    with pytest.raises(UsageError, match=r"^the world of drawing has no option 'engine'$"):
+    with pytest.raises(UsageError, match=r"^the world of drawing has no option 'engine'; it takes none$"):
         with_world_options(DRAWING, {"engine": "any"})
     assert world_used(DRAWING) == {}
 

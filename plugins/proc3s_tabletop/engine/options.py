@@ -5,18 +5,22 @@ from typing import Annotated, Any
 
 from pydantic import AfterValidator
 
-from proc3s import WorldOptions
+from proc3s import UsageError, WorldOptions
 from proc3s_tabletop.engine import choice
 
 
-def _registered(name: str) -> str:
-    """Raises ValueError for an engine that nobody registered."""
+def _installed(name: str) -> str:
+    """Raises ValueError for an engine that nobody registered, UsageError for one that is not installed."""
     if name not in (known := choice.names()):
         raise ValueError(f"must be {' or '.join(known)}")
+    try:
+        choice.engine(name)
+    except UsageError as error:
+        raise UsageError(f"engine {name}: {error}; -W chooses another") from error
     return name
 
 
-EngineName = Annotated[str, AfterValidator(_registered)]
+EngineName = Annotated[str, AfterValidator(_installed)]
 
 
 class TabletopOptions(WorldOptions):

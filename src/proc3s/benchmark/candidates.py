@@ -19,13 +19,14 @@ from proc3s.search.trial import Trial
 
 @dataclass(frozen=True)
 class Candidate:
-    """A plan to test, or None where none was found; its options, and what was spent on it."""
+    """A plan to test, or None where none was found; its options and run, and what was spent on it."""
 
     case: str
     options: RunOptions
     known: KnownPlan | None
     samples: int = 0
     rehearsals: int = 0
+    run: Path | None = None
 
     @property
     def task(self) -> str:
@@ -76,6 +77,16 @@ def saved(runs: Sequence[Path], wanted: Sequence[str], world: Mapping[str, str])
     yield from (one for one in found if not wanted or set(wanted) & set(one.names))
 
 
+def each_once(some: Sequence[Candidate]) -> list[Candidate]:
+    """Those whose plan for their scene is not that of an earlier one, too."""
+    plans = {
+        (one.case, one.known.begun.get("scene"), str(one.known.plan)): one
+        for one in reversed(some)
+        if one.known
+    }
+    return [*reversed(plans.values())]
+
+
 def _saved(run: Path, world: Mapping[str, str]) -> Candidate | None:
     """The plan of a run; None where none was accepted, its goal is its own, or its log is damaged."""
     try:
@@ -87,4 +98,4 @@ def _saved(run: Path, world: Mapping[str, str]) -> Candidate | None:
         return None
     options = options.model_copy(update={"world_options": {**options.world_options, **world}})
     name = options.method if options.preset == DEFAULT_PRESET else f"{options.method}.{options.preset}"
-    return Candidate(f"{options.task}.{name}", options, replace(known, options=options))
+    return Candidate(f"{options.task}.{name}", options, replace(known, options=options), run=run)

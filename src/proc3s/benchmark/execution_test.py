@@ -11,7 +11,8 @@ from dataclasses import dataclass
 from proc3s.benchmark.candidates import Candidate
 from proc3s.domain.domain import Domain
 from proc3s.domain.world import World
-from proc3s.domain.world_options import with_world_options, world_used
+from proc3s.domain.world_options import options_of, with_world_options, world_used
+from proc3s.errors import UsageError
 from proc3s.planning.repetition import repeat, repetitions
 from proc3s.plugins.registry import Registry
 
@@ -24,10 +25,12 @@ class FieldTest:
     """What became of the plan found for a case and a seed, with so many rehearsals before it was accepted.
 
     `satisfied` counts the outcomes, of `times`, with which the judge was satisfied; none without a plan.
-    `engine` is None where the world does not say it; `error_mm` is None for disturbances.
+    `run` is the folder of the run that the plan is from, None for one that was searched now. `engine` is
+    None where the world does not say it; `error_mm` is None for disturbances.
     """
 
     case: str
+    run: str | None
     robust: int
     seed: int
     solved: bool
@@ -61,6 +64,8 @@ class Conditions:
     def require(self, domains: Sequence[Domain], world: Mapping[str, str]) -> None:
         """Raises UsageError or SpecError where a world has not these options, or not these engines."""
         for domain, engine in itertools.product(domains, self.engines):
+            if engine and ENGINE not in options_of(domain).model_fields:
+                raise UsageError(f"--engines: the world of {domain.spec.name} has no engines to choose from")
             with_world_options(domain, {**world, **_chosen(engine)})
 
 
@@ -70,6 +75,7 @@ def field_tests(registry: Registry, candidate: Candidate, conditions: Conditions
         times, satisfied = _carried_out(registry, candidate, conditions.times, engine, error_mm)
         yield FieldTest(
             case=candidate.case,
+            run=str(candidate.run) if candidate.run else None,
             robust=candidate.options.robust,
             seed=candidate.options.seed,
             solved=candidate.known is not None,

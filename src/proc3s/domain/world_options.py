@@ -52,7 +52,7 @@ def with_world_options(domain: Domain, given: Mapping[str, str]) -> Domain:
     spec, model = domain.spec, options_of(domain)
     for name in given:
         if name not in model.model_fields:
-            hint = did_you_mean(name, model.model_fields)
+            hint = did_you_mean(name, model.model_fields) or "; it takes none"
             raise UsageError(f"the world of {spec.name} has no option {name!r}{hint}")
     where = f"world of {spec.name}"
     with blame(where):  # validators of its own may raise anything

@@ -147,7 +147,7 @@ def execution(
         typer.Option(
             "--error",
             metavar="MM",
-            help="everything stands and is put down up to MM off; several with commas",
+            help="everything stands and is put down up to MM (0 to 50) off; several with commas",
             rich_help_panel="World",
         ),
     ] = None,
@@ -177,7 +177,7 @@ def execution(
         tasks=_split("--tasks", tasks),
         seeds=seeds,
         times=times,
-        engines=_split("--engines", engines),
+        engines=tuple(dict.fromkeys(_split("--engines", engines))),
         error=_numbers("--error", error),
         runs=runs,
     )

@@ -15,7 +15,7 @@ def execute(
         typer.Option(
             "--error",
             metavar="MM",
-            help="everything stands and is put down up to MM off, turned by up to MM/2 degrees",
+            help="everything stands and is put down up to MM (0 to 50) off, and turned by up to MM/2 degrees",
             rich_help_panel="World",
             show_default=False,
         ),

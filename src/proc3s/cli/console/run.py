@@ -130,6 +130,9 @@ class Console:
         print_line(out, _headline(summary))
         if summary.error is None or summary.solved:
             print_line(out, escape(f"goal     {_goal(summary)}"))
+        if self._options.world_options:
+            chosen = ", ".join(f"{name} {value}" for name, value in summary.world.items())
+            print_line(out, escape(f"world    {chosen}"))
         if summary.samples:
             rounds = count(summary.rounds + 1, "round")
             print_line(out, f"samples  {summary.samples} in {rounds}, {_times(summary)}")

@@ -10,7 +10,7 @@ from typing import Any, TypeAlias, TypeVar
 
 from rich.console import Console
 
-from proc3s.benchmark.candidates import Candidate, saved, searched
+from proc3s.benchmark.candidates import Candidate, each_once, saved, searched
 from proc3s.benchmark.cases import Case, find_cases
 from proc3s.benchmark.execution_test import Conditions, FieldTest, field_tests
 from proc3s.cli.console.tables import print_table
@@ -22,6 +22,7 @@ from proc3s.planning.options import key_values
 from proc3s.planning.repetition import require_error
 from proc3s.plugins.registry import Registry, open_registry
 from proc3s.plugins.versions import versions
+from proc3s.runs.reading import LOG
 from proc3s.suites.hold_rates import HoldRate, chart, hold_rates
 from proc3s.suites.lock import alone_in
 from proc3s.wording import count
@@ -103,13 +104,27 @@ def _plans(registry: Registry, wanted: FieldTestWanted, folder: Path) -> Work:
     for flag, value in searching.items():
         if value is not None:
             raise UsageError(f"--runs takes plans that are there, and searches none; leave {flag} out")
-    runs = run_folders(folder)
+    runs = _runs_in(folder)
     fit = _fit(registry, wanted, [*saved(runs, wanted.tasks, key_values([*wanted.world_options]))])
     if not fit:
-        raise UsageError(f"no run in {folder} has an accepted plan, a judge, and a world with such errors")
+        needs = "an accepted plan, a task with a judge, and a world with such errors"
+        raise UsageError(f"{folder} has {count(len(runs), 'run')}, but none with {needs}")
     if (left := len(runs) - len(fit)) and not wanted.tasks:
         say([f"{left} of {len(runs)} runs are left out: no accepted plan, no judge, or no such errors"])
-    return [partial(_there, one) for one in fit]
+    once = each_once(fit)
+    if more := len(fit) - len(once):
+        say([f"{count(more, 'run')} more with the plan of another one: each plan counts once"])
+    return [partial(_there, one) for one in once]
+
+
+def _runs_in(folder: Path) -> list[Path]:
+    """The runs in a folder, or itself if it is one. Raises UsageError if there is none."""
+    if not folder.is_dir():
+        raise UsageError(f"there is no folder {folder}")
+    runs = [folder] if (folder / LOG).is_file() else run_folders(folder)
+    if not runs:
+        raise UsageError(f"there is no run in {folder}")
+    return runs
 
 
 def _there(candidate: Candidate) -> Candidate:
@@ -139,7 +154,7 @@ def _told(test: FieldTest) -> str:
     rehearsed = count(test.robust, "rehearsal") if test.robust else ""
     error = "" if test.error_mm is None else f"{test.error_mm:g} mm"
     outcome = f"{test.satisfied} of {test.times} hold" if test.solved else "no plan"
-    parts = (f"{test.case} seed {test.seed}", rehearsed, test.engine, error)
+    parts = (test.run or f"{test.case} seed {test.seed}", rehearsed, test.engine, error)
     return f"{', '.join(part for part in parts if part)}: {outcome}"
 
 
