@@ -58,6 +58,7 @@ def hook(kind, text):
 OWN = hook("solvers", '(SolverSpec(name="hermit", summary="", target="json:loads"))')
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", SPECS)
 def test_a_duplicate_is_refused_as_a_whole_whatever_it_is(cli, install, kind):
     known = "bundled" if kind in ("skills", "constraints") else "proc3s"

@@ -29,6 +29,7 @@ def write(here, hook, raised="SystemExit(0)", name="mine"):
     return path
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("raised", RAISED)
 @pytest.mark.parametrize(
     "text",

@@ -137,6 +137,7 @@ def test_a_run_without_a_program(cli, stub):
     assert "no program" in result.json["error"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("keep", [0, 1, 3, 4, 8])
 def test_a_run_that_was_cut_off_anywhere_can_be_read(cli, here, keep):
     cli("run", "drawing/star", "--out", "first")

@@ -123,6 +123,7 @@ def test_all_seven_methods_run_on_bundled_answers_and_give_the_identical_plan_tw
     assert one.json["run_dir"] != two.json["run_dir"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", ["cap", "llm3"])
 @pytest.mark.parametrize("task", ["arrow", "letters", "enclosed"])
 def test_the_other_tasks_on_bundled_answers(cli, method, task):

@@ -59,6 +59,7 @@ def test_a_fresh_answer_is_not_marked(cli, old):
     assert "stale" not in done.stdout + done.stderr
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("llm", ["replay", "stub:first.json", "replay:new.jsonl"])
 def test_call_options_do_nothing_for_answers_of_which_nobody_knows_how_they_were_drawn(cli, old, llm):
     done = cli("run", "drawing/star", "--llm", llm, "-L", "temperature=1.5", "-L", "max_tokens=7")

@@ -96,6 +96,7 @@ def test_files_of_a_run_do_not_take_the_number_of_a_closed_stream(piped, here):
     assert all(json.loads(line)["event"] for line in lines)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("encoding", ["ascii", "cp1252"])
 @pytest.mark.parametrize(
     "arguments", ["list", "show hop", "render-prompt drawing/star", "--help", "nonsense"]

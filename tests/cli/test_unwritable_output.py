@@ -58,6 +58,7 @@ def test_a_run_that_cannot_be_kept_asks_nothing(limited, kib, here):
     assert "answer_received" not in [event["event"] for event in read_events(here / "run")]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kib", [11, 12, 13, 14, 20])
 @pytest.mark.parametrize("as_json", [True, False], ids=["json", "plain"])
 def test_an_accepted_plan_is_shown_though_the_disk_is_full(limited, kib, as_json, here):

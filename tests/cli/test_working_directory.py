@@ -65,6 +65,7 @@ def test_python_m_imports_nothing_from_it(command, here):
     assert (code, "imported" in said, "solved" in out) == (0, False, True), said
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("args", [(), ("--jobs", "2")], ids=["serial", "processes"])
 def test_a_plugin_in_a_folder_of_its_own_name_works_in_a_suite(cli, here, args):
     (here / "walk").mkdir()

@@ -58,6 +58,7 @@ def test_a_backend_does_not_end_the_process(cli, quitter, what):
     assert "quitter.py:" in result.json["error"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("jobs", [1, 3])
 @pytest.mark.parametrize("what", ENDS)
 def test_nor_a_thread_that_somebody_waits_for(cli, quitter, what, jobs):

@@ -25,6 +25,7 @@ def command(here, *skills, task="tar/cross", limit=0.3, executor=()):
     return ("solve", task, "--sketch", "plan.py", *options)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("executor", EXECUTORS, ids=["serial", "processes"])
 @pytest.mark.parametrize("how", ["asleep", "busy", "deaf"])
 def test_a_skill_that_hangs_is_named_and_no_verdict(cli, here, how, executor):

@@ -72,6 +72,7 @@ PROBLEMS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", PROBLEMS)
 def test_it_is_never_much_worse_than_the_best_of_its_solvers(solvers, name):
     """On average over five seeds: twice the samples of the best, and 128."""

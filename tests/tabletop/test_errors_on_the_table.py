@@ -30,6 +30,7 @@ def outcome(world, rng=None, corner=None):
     return world.observe()
 
 
+@pytest.mark.slow
 def test_errors_repeat_with_the_seed_and_leave_nothing_behind(world):
     exact = outcome(world)
     first = outcome(world, np.random.default_rng(1))

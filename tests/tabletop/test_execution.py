@@ -128,6 +128,7 @@ def test_a_step_depends_on_its_snapshot_alone(table):
         fresh.close()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("speed", [0.95, 1.05])
 def test_the_speed_changes_the_way_but_not_the_end(table, speed):
     other = executing(BLOCKS, speed)

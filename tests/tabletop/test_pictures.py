@@ -73,6 +73,7 @@ def test_there_is_a_picture_of_the_end_and_of_every_step(world, tmp_path):
     assert before[0] > after[0] + 80
 
 
+@pytest.mark.slow
 def test_a_picture_changes_no_later_step(world, tmp_path):
     world.reset(START)
     first = [world.step(action) for action in PLAN]

@@ -141,6 +141,7 @@ def test_the_screen_rejects_only_what_the_world_rejects_and_says_the_same(name, 
             assert said.text.split(" slips")[0] == found[0].text.split(" slips")[0]
 
 
+@pytest.mark.slow
 def test_what_the_screen_lets_pass_mostly_holds(world):
     wanted = pool()[::4]
     screened = grasps(SCENE, batch_of("object_0", wanted), YCB)
