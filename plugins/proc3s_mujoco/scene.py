@@ -9,6 +9,7 @@ import numpy as np
 from proc3s_mujoco import closest, contacts, forces, rays, specs
 from proc3s_mujoco.arm import Robot
 from proc3s_mujoco.simulation import TableScene
+from proc3s_tabletop.engine.forces import Guard, between_pads, hardest
 from proc3s_tabletop.engine.settle import settle as settled
 from proc3s_tabletop.engine.snapshot import Snapshot
 from proc3s_tabletop.objects.body import Body
@@ -33,7 +34,9 @@ class Scene(TableScene):
     near = closest.near
     hand_clearances = closest.hand_clearances
     company = closest.company
-    between_pads = forces.between_pads
+    on_hand = forces.on_hand
+    presses = forces.presses
+    between_pads = between_pads
     settle = settled
 
     def __init__(self, bodies: Mapping[str, Body], settings: ReferenceSettings) -> None:
@@ -46,11 +49,11 @@ class Scene(TableScene):
         option.enableflags &= ~SLEEP
         mujoco.mj_forward(self.state.model, self.state.data)
         option.enableflags |= SLEEP
-        return forces.support(self, name)
+        return hardest(self.presses(name))
 
-    def guard(self, held: str | None) -> forces.Guard:
+    def guard(self, held: str | None) -> Guard:
         """A guard of a descent with an object in hand, or without."""
-        return forces.Guard(self, held)
+        return Guard(self, held)
 
     def load(self, snapshot: Snapshot) -> None:
         """Restore a snapshot, bit for bit the same whatever was simulated before."""

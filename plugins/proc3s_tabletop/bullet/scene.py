@@ -7,6 +7,7 @@ import numpy as np
 from proc3s_tabletop.bullet import contacts, forces, rays
 from proc3s_tabletop.bullet.arm import Robot
 from proc3s_tabletop.bullet.simulation import TableScene
+from proc3s_tabletop.engine.forces import Guard, between_pads, hardest
 from proc3s_tabletop.engine.settle import settle as settled
 from proc3s_tabletop.engine.snapshot import Snapshot
 from proc3s_tabletop.objects.body import Body
@@ -24,8 +25,9 @@ class Scene(TableScene):
     hand_clearances = contacts.hand_clearances
     company = contacts.company
     grip_force = contacts.grip_force
-    between_pads = forces.between_pads
-    support = forces.support
+    on_hand = forces.on_hand
+    presses = forces.presses
+    between_pads = between_pads
     cover = rays.cover
     settle = settled
 
@@ -36,9 +38,13 @@ class Scene(TableScene):
             on = int(link > self.robot.base)
             self.client.setCollisionFilterPair(self.robot.id, self.table, link, -1, on)
 
-    def guard(self, held: str | None) -> forces.Guard:
+    def support(self, name: str) -> str | None:
+        """What pushes an object up hardest."""
+        return hardest(self.presses(name))
+
+    def guard(self, held: str | None) -> Guard:
         """A guard of a descent with an object in hand, or without."""
-        return forces.Guard(self, held)
+        return Guard(self, held)
 
     def load(self, snapshot: Snapshot) -> None:
         """Restore a snapshot, bit for bit the same whatever was simulated before."""
