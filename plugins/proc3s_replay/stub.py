@@ -6,6 +6,7 @@ from typing import Any
 
 from proc3s import LLM, Candidate, Completion, LLMError, Request
 from proc3s.textfiles import read_text
+from proc3s.wording import count
 
 
 class Stub(LLM):
@@ -28,12 +29,12 @@ class Stub(LLM):
     def complete(self, request: Request) -> Completion:
         """As many candidates of the round as are wanted and there."""
         if request.round >= len(self._rounds):
-            there = f"{len(self._rounds)} answers, none"
+            there = f"{count(len(self._rounds), 'answer')}, none"
             raise LLMError(f"the script has {there} for round {request.round}", "no_answer")
         texts = self._rounds[request.round]
         wanted = texts[request.candidate :][: request.sampling.n]
         if not wanted:
-            there = f"{len(texts)} candidates for round {request.round}, none"
+            there = f"{count(len(texts), 'candidate')} for round {request.round}, none"
             raise LLMError(f"the script has {there} with number {request.candidate}", "no_answer")
         candidates = tuple(Candidate(text=text) for text in wanted)
         return Completion(candidates=candidates, source="authored", model="stub")

@@ -24,6 +24,10 @@ class UsageError(Proc3sError):
     """A wrong name, option or file on the command line (exit code 2)."""
 
 
+class Notice(UserWarning):
+    """What a plugin has to say that is no error; the command line shows it as its own notices."""
+
+
 def refuse_windows() -> None:
     """Raises UsageError on Windows: it has none of the file locks, signals and filters that runs need."""
     if sys.platform == "win32":

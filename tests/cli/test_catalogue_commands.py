@@ -70,7 +70,7 @@ def test_one_kind(cli, kind):
     [
         ("drawing", ["Obstacle", "draw_line", "ContinuousSampler", "collision", "drawing/star", "10000"]),
         ("drawing/star", ["Draw a star", "is_star"]),
-        ("ycb", ["pick(o: object, g: grasp)", "CC BY 4.0", "Calli, Walsman"]),
+        ("ycb", ["pick(o: object, g: grasp)", "CC BY 4.0", "Calli, Walsman", "ycb/packing.open"]),
         ("proc3s", ["sketch", "5"]),
         ("rejection", ["first", "64", "largest"]),
         ("manual", ["wait", "manual:DIR"]),

@@ -2,9 +2,9 @@
 
     python tests/mujoco_tabletop/agreement.py blocks/pyramid blocks/packing --plans 200
 
-Plans come from the bundled program and from all of the benchmark, half of each one's accepted and half
-refused by PyBullet as far as there are both. Each is judged three times by each engine, every object moved
-by up to 0.5 mm; clear is a plan on which each engine gives one verdict.
+Plans come from the bundled program, from all of the benchmark and from the recorded answers, half of each
+one's accepted and half refused by PyBullet as far as there are both. Each is judged three times by each
+engine, every object moved by up to 0.5 mm; clear is a plan on which each engine gives one verdict.
 """
 
 import argparse
@@ -26,7 +26,9 @@ from proc3s.planning.options import RunOptions
 from proc3s.planning.setup import make_problem
 from proc3s.plugins.registry import open_registry
 from proc3s.prompts.extract import extract_program
+from proc3s.runs.recordings import read_recordings
 from proc3s.search.rollout import carry_out
+from proc3s_replay.recorded import FOLDER
 
 ENGINES = ("pybullet", "mujoco")
 TIMES, JITTER = 3, 0.0005
@@ -34,11 +36,14 @@ REGISTRY = open_registry()
 
 
 def programs(domain, task):
-    """The bundled program of a task, and those of the benchmark; each with the options of its scene."""
+    """The programs of a task that come with proc3s; each with the options of its scene."""
     answer = domain.spec.folder / "answers" / f"{task}.proc3s.md"
     yield {}, extract_program(answer.read_text(encoding="utf-8"))
-    for case in find_cases(REGISTRY, [f"{domain.spec.name}/{task}"]):
-        yield case.scene, case.program
+    name = f"{domain.spec.name}/{task}"
+    yield from ((case.scene, case.program) for case in find_cases(REGISTRY) if case.task == name)
+    for recording in read_recordings(FOLDER):
+        if recording.task == name:
+            yield {}, extract_program(recording.completion.text)
 
 
 def worlds(domain):

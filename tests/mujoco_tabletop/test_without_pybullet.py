@@ -38,6 +38,7 @@ def test_a_pyramid_is_planned_carried_out_and_drawn_and_a_replay_keeps_to_the_en
     summary, said = run(here, "pyramid")
     assert (summary["solved"], summary["goal_reached"], summary["rounds"]) == (True, True, 0)
     assert said.count("there is no pybullet here: table-tops are simulated in mujoco") == 1
+    assert "proc3s: there is no pybullet" in said
     assert (here / "run" / "plan.png").stat().st_size > 10_000
     again = cli("replay", "run", "--json").json
     assert (again["world"], again["plan"]) == (summary["world"], summary["plan"])

@@ -5,7 +5,7 @@ import warnings
 from importlib.metadata import EntryPoint, entry_points
 
 from proc3s import UsageError
-from proc3s.errors import did_you_mean
+from proc3s.errors import Notice, did_you_mean
 from proc3s_tabletop.engine.protocol import Engine
 
 GROUP = "proc3s_tabletop.engines"
@@ -38,7 +38,8 @@ def default() -> str:
             _made(FALLBACK)
         except UsageError:
             return DEFAULT
-        warnings.warn(f"there is no {DEFAULT} here: table-tops are simulated in {FALLBACK}", stacklevel=3)
+        text = f"there is no {DEFAULT} here: table-tops are simulated in {FALLBACK}"
+        warnings.warn(text, Notice, stacklevel=3)
         return FALLBACK
     return DEFAULT
 

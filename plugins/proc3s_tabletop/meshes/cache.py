@@ -13,6 +13,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from proc3s.errors import Notice
 from proc3s_tabletop.extra import extra
 
 VARIABLE = "PROC3S_CACHE"
@@ -51,7 +52,8 @@ def kept(key: str, make: Callable[[], Arrays]) -> Arrays:
             try:
                 _write(path, found)
             except OSError as error:
-                warnings.warn(f"{path} is not kept, and made again next time: {error.strerror}", stacklevel=2)
+                text = f"{path} is not kept, and made again next time: {error.strerror}"
+                warnings.warn(text, Notice, stacklevel=2)
     return found
 
 
@@ -96,5 +98,6 @@ def _instead(path: Path, reason: str) -> Path:
     """A temporary folder of this user, in place of the cache folder."""
     where = Path(tempfile.gettempdir()) / f"proc3s-meshes-{os.getuid()}"
     where.mkdir(mode=0o700, exist_ok=True)
-    warnings.warn(f"{path} cannot be written ({reason}): meshes are kept in {where}", stacklevel=2)
+    text = f"{path} cannot be written ({reason}): meshes are kept in {where}"
+    warnings.warn(text, Notice, stacklevel=2)
     return where

@@ -4,6 +4,7 @@ import contextlib
 import functools
 import inspect
 import sys
+import warnings
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -30,7 +31,10 @@ from proc3s.cli.commands import (
 )
 from proc3s.cli.commands import list as catalogue
 from proc3s.cli.streams import document_alone, exit_code, take_streams
-from proc3s.errors import Proc3sError, refuse_windows
+from proc3s.errors import Notice, Proc3sError, refuse_windows
+
+PYTHONS = warnings.formatwarning
+"""How Python shows a warning."""
 
 app = typer.Typer(
     name="proc3s",
@@ -138,7 +142,17 @@ def _root(
 def main() -> None:
     """Entry point of the `proc3s` script."""
     out = take_streams()
+    warnings.formatwarning = _warning
     try:
         app()
     except SystemExit as ended:
         sys.exit(exit_code(ended.code if isinstance(ended.code, int) else 0, out))
+
+
+def _warning(
+    message: Warning | str, category: type[Warning], filename: str, lineno: int, line: str | None = None
+) -> str:
+    """A notice as the command line says it; another warning as Python shows it."""
+    if category is Notice:
+        return f"proc3s: {message}\n"
+    return PYTHONS(message, category, filename, lineno, line)

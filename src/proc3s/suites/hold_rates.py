@@ -91,7 +91,8 @@ def chart(rates: Sequence[HoldRate]) -> str | None:
 
 def _label(one: HoldRate) -> str:
     rehearsed = count(one.rehearsals, "rehearsal") if one.rehearsals else "no rehearsals"
-    return f"{one.engine}, {rehearsed}" if one.engine else rehearsed
+    parts = [one.engine, rehearsed, count(one.plans, "plan")]
+    return ", ".join(part for part in parts if part)
 
 
 def _draw(axes: Axes, points: list[tuple[float, Estimate]], name: str, color: str, aside: float) -> None:

@@ -39,8 +39,9 @@ def execute_run(run: Path, given: dict[str, Any], error: float, times: int | Non
         say(["without an --error every time is the same; the plan is carried out once"])
     done, console = list[Repetition](), Console(highlight=False, quiet=as_json)
     for one in repeat(problem, known.plan, times or TIMES, error):
+        reason = "" if done and done[-1].reason == one.reason else one.reason
         done.append(one)
-        print_line(console, f"{len(done):>3}  {_WORDS[one.reached]:<7}  {escape(one.reason)}")
+        print_line(console, f"{len(done):>3}  {_WORDS[one.reached]:<7}  {escape(reason)}".rstrip())
     world = world_used(problem.domain)
     if as_json:
         print_document(json.dumps(_document(run, known, world, error, done), indent=2, ensure_ascii=False))

@@ -11,6 +11,7 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
+from proc3s.benchmark.cases import find_cases
 from proc3s.cli.console.lines import print_line
 from proc3s.cli.failures import warn_of_failures
 from proc3s.cli.streams import json_of, print_document
@@ -93,6 +94,7 @@ def _describe(registry: Registry, spec: Spec) -> Iterator[str]:
     yield f"[bold]{escape(str(getattr(spec, 'name', '')))}[/]  ({spec.kind.removesuffix('s')})"
     if isinstance(spec, DomainSpec):
         yield from _describe_domain(registry.domain(spec.name))
+        yield from _describe_programs(registry, spec)
         return
     for field in type(spec).model_fields:
         value = getattr(spec, field)
@@ -150,6 +152,13 @@ def _describe_domain(domain: Domain) -> Iterator[str]:
     yield f"  [bold]budget[/] {escape(_text(spec.budget))} samples"
     for credit in spec.credits:
         yield f"  [bold]credit[/] {escape(credit)}"
+
+
+def _describe_programs(registry: Registry, spec: DomainSpec) -> Iterator[str]:
+    """The programs that benchmarks run, which `--tasks` takes."""
+    cases = [case.label for case in find_cases(registry) if case.task.partition("/")[0] == spec.name]
+    if cases:
+        yield f"  [bold]programs of `proc3s bench`[/] {escape(', '.join(cases))}"
 
 
 def _describe_world(domain: Domain) -> Iterator[str]:
