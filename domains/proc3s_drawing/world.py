@@ -1,7 +1,7 @@
 """The canvas: pymunk says which obstacles a line touches, and by how much it clears them."""
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -69,6 +69,17 @@ class Canvas(World[Stroke]):
     def render(self, plan: Plan, path: Path) -> None:
         """A picture of the canvas, later lines darker."""
         self._draw(path)
+
+    def film(self) -> list[list[dict[str, float]]]:
+        """The lines in the end: the picture has them all, one after the other."""
+        return [[dataclasses.asdict(line) for line in self.state.drawn_lines]]
+
+    def render_film(self, initial: State, frames: Mapping[Path, Any]) -> None:
+        """Draw lines on the canvas."""
+        make_line: Any = self.domain.states.types["DrawnLine"]
+        for path, lines in frames.items():
+            self.state = dataclasses.replace(initial, drawn_lines=tuple(make_line(**line) for line in lines))
+            self._draw(path)
 
     def render_marked(self, plan: Plan, path: Path, marked: Sequence[str]) -> None:
         """The same, obstacles that are marked with a red rim, and the last line red."""

@@ -177,18 +177,28 @@ class TabletopWorld(World[Telemetry]):
         self.table.snapshot = snapshot
 
     def render(self, plan: Plan, path: Path) -> None:
-        """Draw the world after a plan, and at `path` with `-step0`, `-step1`, ... where each step led."""
-        with closing(self._studio()) as studio:
-            looks.draw(studio, self._film, path)
+        """Draw the world after a plan."""
+        self.render_marked(plan, path, ())
+
+    def film(self) -> list[dict[str, Any]]:
+        """What of every snapshot is seen."""
+        return [snapshot.seen() for snapshot in self._film]
+
+    def render_film(self, initial: State, frames: Mapping[Path, Any]) -> None:
+        """Draw frames of a film: only what draws of the engine is started."""
+        objects: Mapping[str, Any] = initial.objects  # type: ignore[attr-defined]
+        with closing(self._studio(objects)) as studio:
+            for path, frame in frames.items():
+                studio.picture(Snapshot.of_seen(frame)).save(path)
 
     def render_marked(self, plan: Plan, path: Path, marked: Sequence[str]) -> None:
         """Draw the world after a plan, with a ring and the name around objects that are marked."""
-        with closing(self._studio()) as studio:
+        with closing(self._studio(self.state.objects)) as studio:
             looks.draw_marked(studio, self._bodies, self.table.snapshot, path, marked)
 
-    def _studio(self) -> Studio:
-        colors = {name: getattr(thing, "color", "") for name, thing in self.state.objects.items()}
-        return choice.engine(self.engine).studio(self._bodies, colors)
+    def _studio(self, objects: Mapping[str, Any]) -> Studio:
+        colors = {name: getattr(thing, "color", "") for name, thing in objects.items()}
+        return choice.engine(self.engine).studio(self._placed(objects)[0], colors)
 
     def facts(self) -> list[str]:
         """How far convex pieces are from their mesh: the 95th percentile of the surfaces' distance."""

@@ -18,6 +18,7 @@ from proc3s.domain.world import make_world
 from proc3s.errors import UsageError
 from proc3s.feedback.report import Diagnosis
 from proc3s.llm.budget import Spent
+from proc3s.planning.film import draw_pictures
 from proc3s.planning.known_plan import plan_of
 from proc3s.planning.options import RunOptions
 from proc3s.planning.repetition import Repetition, repeat, require_error
@@ -25,7 +26,7 @@ from proc3s.planning.setup import make_problem
 from proc3s.planning.summary import Summary
 from proc3s.plugins.registry import Registry, open_registry
 from proc3s.reporting.history import ProgramRecord, Story, read_story
-from proc3s.runs.folder import NEAREST_MISS, SCENE
+from proc3s.runs.pictures import NEAREST_MISS, OUTCOME, SCENE, step_picture
 from proc3s.search.rollout import carry_out
 from proc3s.specs.domain import SamplerSpec
 from proc3s.specs.yaml_files import validate
@@ -174,11 +175,13 @@ class Result:
         return [*repeat(problem, known.plan, times, require_error(error_mm))]
 
     def picture(self, step: int | None = None) -> "Image":
-        """The outcome, of an unsolved run its nearest miss, or the world after a step (from 0), where it
-        draws one. Raises UsageError without."""
+        """The outcome, of an unsolved run its nearest miss, or the world after so many steps, where it draws
+        one; drawn now if it is not there yet. Raises UsageError without."""
         from PIL import Image
 
-        path = self._outcome if step is None else self.run_dir / f"plan-step{step}.png"
+        path = self._outcome if step is None else self.run_dir / step_picture(step)
+        if not path.is_file() and step is not None:
+            draw_pictures(self.run_dir, self._registry)
         if not path.is_file():
             raise UsageError(f"the run has no picture {path.name}")
         with Image.open(path) as image:
@@ -187,8 +190,10 @@ class Result:
     @property
     def _outcome(self) -> Path:
         """The picture of what became of the run; the last of those that it may have, if it has none."""
-        names = ["plan.png"] if self.solved else [NEAREST_MISS, "plan.png", SCENE]
+        names = [OUTCOME] if self.solved else [NEAREST_MISS, OUTCOME, SCENE]
         paths = [self.run_dir / name for name in names]
+        if not any(path.is_file() for path in paths):
+            draw_pictures(self.run_dir, self._registry, steps=False)
         return next((path for path in paths if path.is_file()), paths[-1])
 
     @cached_property

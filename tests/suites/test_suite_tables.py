@@ -9,7 +9,7 @@ import pytest
 
 from browser import needs_chromium, visiting
 from proc3s import UsageError
-from proc3s.plugins.registry import folders_of, open_registry
+from proc3s.plugins.registry import open_registry
 from proc3s.specs.suite import Cell, SuiteSpec
 from proc3s.suites.comparison import comparison
 from proc3s.suites.episode import Episode
@@ -81,7 +81,7 @@ def folder(tmp_path):
 
 def made(folder):
     """The tables of a folder by title, lines by their first cell."""
-    tables = write_files(read_results(folder), folder, folders_of(open_registry()))
+    tables = write_files(read_results(folder), folder, open_registry())
     return {t.title: {line[0]: line[1:] for line in t.lines} for t in tables}
 
 

@@ -21,7 +21,7 @@ Color: TypeAlias = tuple[float, float, float, float]
 SIZE = (480, 360)
 """Of a picture, pixels."""
 
-EYE, AIM = (0.36, -1.56, 0.90), (0.0, -0.44, 0.06)
+EYE, AIM = (0.36, -1.58, 0.92), (0.0, -0.45, 0.04)
 """The camera and what it looks at, metres: over the far edge of the table, towards the robot."""
 VIEW_ANGLE = 36.0
 """Upwards, degrees."""
@@ -52,15 +52,6 @@ def color_of(name: str) -> Color:
 def background(height: int) -> Any:
     """A column of pixels, (height, 1, 3)."""
     return np.linspace(SKY, GROUND, height).astype(np.uint8)[:, None]
-
-
-def draw(studio: Studio, film: Sequence[Snapshot], path: Path) -> None:
-    """Write the last snapshot to `path`, and every one beside it with `-step0`, `-step1`, ... to its name."""
-    for step, snapshot in enumerate(film):
-        picture = studio.picture(snapshot)
-        picture.save(path.with_name(f"{path.stem}-step{step}.png"))
-        if step == len(film) - 1:
-            picture.save(path)
 
 
 def draw_marked(

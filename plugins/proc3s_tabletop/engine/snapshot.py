@@ -1,7 +1,9 @@
 """Snapshots: everything that an action starts from, as plain data of no engine."""
 
 import dataclasses
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 from proc3s_tabletop.robot.frames import Frame, Held, compose
 from proc3s_tabletop.robot.settings import HOME
@@ -36,6 +38,16 @@ class Snapshot:
         """Where the arm believes an object to be; an error of the camera stays with what it was made of."""
         true, believed = dict(self.frames)[name], dict(self.believed)
         return compose(true, believed[name]) if name in believed else true
+
+    def seen(self) -> dict[str, Any]:
+        """What a picture shows of it, as plain data."""
+        return {"frames": dict(self.frames), "q": self.q, "angle": self.angle, "linkage": self.linkage}
+
+    @classmethod
+    def of_seen(cls, seen: Mapping[str, Any]) -> "Snapshot":
+        """A snapshot that looks as it was seen."""
+        frames = tuple((name, Frame(*map(tuple, frame))) for name, frame in seen["frames"].items())
+        return cls(frames, tuple(seen["q"]), seen["angle"], linkage=tuple(seen["linkage"]))
 
     def loose(self) -> dict[str, Frame]:
         """Where all objects are that are not in hand."""

@@ -132,6 +132,20 @@ class World(Generic[T]):
     def render(self, plan: Plan, path: Path) -> None:
         """Draw the world after a plan as a PNG file; a world without a picture writes none."""
 
+    def film(self) -> Sequence[Any]:
+        """What `render_film` draws of the plan that was carried out, as data that JSON has.
+
+        A frame for the world before the first step and one after each, or only one after the last. Empty in a
+        world that draws by `render` alone.
+        """
+        return ()
+
+    def render_film(self, initial: State, frames: Mapping[Path, Any]) -> None:
+        """Draw frames of a film, each as a PNG file as `render` would have; nothing is reset or simulated.
+
+        `initial` is the state that the plan began from.
+        """
+
     def render_marked(self, plan: Plan, path: Path, marked: Sequence[str]) -> None:
         """Draw only the world after a plan, with these objects of the state marked; by default none is."""
         self.render(plan, path)

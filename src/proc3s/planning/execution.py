@@ -3,7 +3,6 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from pathlib import Path
 from typing import Any, Literal
 
 from proc3s.domain.margins import Violation
@@ -11,7 +10,8 @@ from proc3s.domain.state import State
 from proc3s.domain.values import Plan
 from proc3s.domain.world import Score, World, make_world
 from proc3s.errors import blame
-from proc3s.planning.pictures import told_if_missing
+from proc3s.planning.parts import Pictures
+from proc3s.planning.pictures import draw_outcome
 from proc3s.runs.events import Emit, PlanExecuted
 from proc3s.search.problem import Problem
 from proc3s.search.rollout import carry_out, judge
@@ -39,16 +39,17 @@ def execute(
     plan: Plan,
     executed: Literal["solution", "fallback"],
     place: tuple[int, int],
-    picture: Path | None,
+    pictures: Pictures | None,
     emit: Emit,
 ) -> Execution:
-    """Carry a plan out open loop, without stopping at violations; `picture` takes a PNG of the outcome.
+    """Carry a plan out open loop, without stopping at violations; keep its film and `pictures`.
+
     `place` is the round and the candidate whose program the plan is from.
 
     A fallback that turns out to violate nothing is a solution.
     """
     spec = problem.domain.spec
-    draw = partial(_draw, plan, picture, emit)
+    draw = partial(draw_outcome, problem.initial, plan, pictures, emit) if pictures else None
     violations, final = _carry_out(problem, plan, spec.world, None if spec.execution else draw)
     expected, reason = judge(problem, final, plan)
     score = expected
@@ -75,13 +76,6 @@ def _carry_out(
     finally:
         world.close()
     return trial.violations, final
-
-
-def _draw(plan: Plan, picture: Path | None, emit: Emit, world: World[Any]) -> None:
-    """Draw the outcome, if a picture is wanted."""
-    if picture is not None:
-        with told_if_missing(picture, emit):
-            world.render(plan, picture)
 
 
 def _executed(execution: Execution, place: tuple[int, int]) -> PlanExecuted:

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Annotated, Any, get_origin
+from typing import Annotated, Any, Literal, get_origin
 
 from pydantic import Field
 from pydantic.fields import FieldInfo
@@ -35,6 +35,7 @@ _LLM = OnCommandLine("LLM", asks=True)
 _SEARCH = OnCommandLine("Search")
 _WORLD = OnCommandLine("World")
 Pairs = dict[str, str]
+PlanPictures = Literal["all", "last", "none"]
 
 
 class RunOptions(Spec):
@@ -97,6 +98,8 @@ class RunOptions(Spec):
     """option of the LLM"""
     limits: Annotated[Pairs, replace(_WORLD, flag="--limit")] = Field(default_factory=dict)
     """limit of the box, e.g. call=2, or of the clock, e.g. round=60"""
+    pictures: Annotated[PlanPictures, replace(_WORLD, metavar="WHICH")] = "last"
+    """drawn at once: all, last or none; the others when somebody looks (default: last)"""
     no_miss_picture: Annotated[bool, _WORLD] = False
     """do not draw the nearest miss of an unsolved run"""
     unsafe_exec: Annotated[bool, _WORLD] = False

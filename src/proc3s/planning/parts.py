@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from proc3s.planning.limits import ClockLimits
+from proc3s.planning.options import PlanPictures
 from proc3s.sandbox.box import Limits
 from proc3s.search.executor import Executor
 from proc3s.search.problem import Problem
@@ -12,11 +13,20 @@ from proc3s.specs.parts import MethodSpec, PresetSpec
 
 
 @dataclass(frozen=True)
+class Pictures:
+    """Which pictures a run draws at once into its folder: of its plan, and of what an unsolved run came
+    nearest to (`miss`). Its film is kept whatever it draws."""
+
+    folder: Path
+    plan: PlanPictures = "last"
+    miss: bool = True
+
+
+@dataclass(frozen=True)
 class Setup:
     """Everything a run is made of, but for the one who proposes programs.
 
-    `locked` is False only if the user asked for programs to run outside the kernel's lock. `picture` takes
-    that of the outcome, `miss_folder` those of an unsolved run.
+    `locked` is False only if the user asked for programs to run outside the kernel's lock.
     """
 
     problem: Problem
@@ -29,5 +39,4 @@ class Setup:
     clock_limits: ClockLimits = field(default_factory=ClockLimits)
     locked: bool = True
     audit: int = 0
-    picture: Path | None = None
-    miss_folder: Path | None = None
+    pictures: Pictures | None = None

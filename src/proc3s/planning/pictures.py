@@ -5,15 +5,19 @@ from collections.abc import Iterable, Iterator, Sequence
 from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from proc3s.domain.margins import Violation
+from proc3s.domain.state import State
 from proc3s.domain.values import Action, Plan
-from proc3s.domain.world import draws, make_world
+from proc3s.domain.world import World, draws, make_world
 from proc3s.errors import Proc3sError, blame
 from proc3s.planning.attempts import Attempt, furthest
+from proc3s.planning.film import draw_steps, keep_film
+from proc3s.planning.parts import Pictures
 from proc3s.reporting.caption import write_below
 from proc3s.runs.events import Emit, Undrawn, Unwritten
-from proc3s.runs.folder import NEAREST_MISS, SCENE
+from proc3s.runs.pictures import FILM, NEAREST_MISS, OUTCOME, SCENE, step_picture
 from proc3s.search.problem import Problem
 from proc3s.search.rollout import carry_out
 
@@ -54,6 +58,21 @@ def told_if_missing(picture: Path, emit: Emit) -> Iterator[None]:
             emit(Unwritten(text=f"{missing}: {cause.strerror}"))
         else:
             emit(Undrawn(text=f"{missing}: {error}"))
+
+
+def draw_outcome(initial: State, plan: Plan, pictures: Pictures, emit: Emit, world: World[Any]) -> None:
+    """Keep the film of a plan that a world has carried out, and draw what is wanted at once."""
+    folder, film = pictures.folder, world.film()
+    if film:
+        with told_if_missing(folder / FILM, emit):
+            keep_film(film, folder)
+    if pictures.plan == "none":
+        return
+    with told_if_missing(folder / OUTCOME, emit):
+        world.render(plan, folder / OUTCOME)
+    if pictures.plan == "all":
+        with told_if_missing(folder / step_picture(0), emit):
+            draw_steps(world, initial, plan, film, folder)
 
 
 def draw_unsolved(problem: Problem, miss: Miss | None, folder: Path, emit: Emit) -> None:

@@ -104,13 +104,13 @@ class Run:
 
     def _draw(self, execution: Execution | None) -> None:
         """Pictures of a run that was not solved: whatever its plan, what came nearest."""
-        folder = self._setup.miss_folder
-        if folder is None or (execution and execution.executed == "solution"):
+        pictures = self._setup.pictures
+        if pictures is None or not pictures.miss or (execution and execution.executed == "solution"):
             return
         miss = nearest_miss([attempt for round_ in self._rounds for attempt in round_.attempts])
         if miss is None and execution and execution.violations:
             miss = Miss.of(execution.plan, execution.violations[0])
-        draw_unsolved(self._setup.problem, miss, folder, self._emit)
+        draw_unsolved(self._setup.problem, miss, pictures.folder, self._emit)
 
     def _execute(self) -> Execution | None:
         """Carry out the accepted plan, or the latest one to fall back on, and let the judge look."""
@@ -120,13 +120,13 @@ class Run:
         winner = latest.attempts[latest.best]
         if winner.solution and winner.solution.plan:
             place = (winner.round, winner.candidate)
-            return execute(setup.problem, winner.solution.plan, "solution", place, setup.picture, self._emit)
+            return execute(setup.problem, winner.solution.plan, "solution", place, setup.pictures, self._emit)
         ranked = (round_.attempts[i] for round_ in reversed(self._rounds) for i in round_.ranking)
         usable = next((attempt for attempt in ranked if attempt.fallback), None)
         if usable is None or usable.fallback is None:
             return None
         place = (usable.round, usable.candidate)
-        return execute(setup.problem, usable.fallback, "fallback", place, setup.picture, self._emit)
+        return execute(setup.problem, usable.fallback, "fallback", place, setup.pictures, self._emit)
 
 
 def plan(

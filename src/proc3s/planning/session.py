@@ -15,6 +15,7 @@ from proc3s.planning.expense import bound_of, in_words
 from proc3s.planning.llm_backend import find_llm, open_llm, price_of
 from proc3s.planning.options import RunOptions
 from proc3s.planning.own_templates import unused_templates
+from proc3s.planning.parts import Pictures
 from proc3s.planning.planner import Outcome, plan
 from proc3s.planning.proposals import Propose, Question, ask_llm, given_program
 from proc3s.planning.readiness import check_parts
@@ -126,8 +127,8 @@ class Session:
         """Carry the run out to its end."""
         options, job = self._options, self._job
         path = job.out or new_folder(RUNS, options.task, options.method, options.seed)
-        miss_folder = None if options.no_miss_picture else path
-        setup = replace(self._setup, picture=path / "plan.png", miss_folder=miss_folder)
+        miss = options.pictures != "none" and not options.no_miss_picture
+        setup = replace(self._setup, pictures=Pictures(path, options.pictures, miss))
         self._folder = RunFolder(path, resume=job.past is not None)
         link_latest(path)
         try:

@@ -8,7 +8,7 @@ from pydantic import BaseModel, ConfigDict
 
 from proc3s.feedback.report import Diagnosis, Failure
 from proc3s.reporting.history import ProgramRecord, Story
-from proc3s.runs.folder import NEAREST_MISS, SCENE
+from proc3s.runs.pictures import pictures_of, undrawn
 
 _HOPEFUL = 10
 """How many times the budget a search that gets further now and then is given on trial."""
@@ -97,9 +97,9 @@ def of_run(story: Story) -> tuple[Pointer, ...]:
         found.append(Pointer(kind="resume" if known else "repeat", facts=facts))
     if executed := story.executed:
         found += [Pointer(kind=kind, facts={**facts, **executed}) for kind in _of_execution(executed)]
-    kinds = ("plan*.png", NEAREST_MISS, SCENE)
-    if pictures := [path.name for kind in kinds for path in sorted(story.run.glob(kind))]:
-        found.append(Pointer(kind="pictures", facts={**facts, "pictures": pictures}))
+    pictures, more = [path.name for path in pictures_of(story.run)], undrawn(story.run)
+    if pictures or more:
+        found.append(Pointer(kind="pictures", facts={**facts, "pictures": pictures, "undrawn": more}))
     return tuple(found)
 
 

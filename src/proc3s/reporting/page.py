@@ -6,7 +6,6 @@ scripts and requests besides. The page is `report.j2`, its style `report.css`.
 
 import base64
 import hashlib
-import re
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -22,10 +21,9 @@ from proc3s.reporting import charts
 from proc3s.reporting.explanation import explained
 from proc3s.reporting.history import ProgramRecord, RoundRecord, Story
 from proc3s.reporting.templates import ReportTemplates
-from proc3s.runs.folder import NEAREST_MISS, SCENE
+from proc3s.runs.pictures import NEAREST_MISS, OUTCOME, SCENE, step_pictures
 from proc3s.sandbox.text import clean
 
-_STEP = re.compile(r"plan-step(\d+)$")
 _LONGEST = 400_000
 """Characters of a text that are shown."""
 
@@ -116,13 +114,14 @@ def _faulty_lines(diagnosis: Diagnosis | None) -> list[int]:
 
 def _pictures(story: Story) -> list[dict[str, Any]]:
     """Those of the plan that was carried out: before the first step, then after each; else the last alone."""
-    found = {int(m[1]): path for path in story.run.glob("plan-step*.png") if (m := _STEP.match(path.stem))}
+    found = step_pictures(story.run)
     plan = story.executed["plan"] if story.executed else []
     if found:
         return [
-            _picture(found[n], _shown(plan[n - 1]) if 0 < n <= len(plan) else None, n) for n in sorted(found)
+            _picture(path, _shown(plan[n - 1]) if 0 < n <= len(plan) else None, n)
+            for n, path in found.items()
         ]
-    last = story.run / "plan.png"
+    last = story.run / OUTCOME
     return [_picture(last, None, None)] if last.is_file() else []
 
 

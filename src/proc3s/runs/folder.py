@@ -22,9 +22,6 @@ from proc3s.runs.events import (
 )
 from proc3s.runs.reading import LOG, label
 
-SCENE, NEAREST_MISS = "scene.png", "nearest_miss.png"
-"""Pictures of an unsolved run: where plans begin, and the one that came furthest, at the step that failed."""
-
 
 class RunFolder:
     """Writes a run as it happens. Every line is whole when written, so a killed run can be read.

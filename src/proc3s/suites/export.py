@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from proc3s.errors import UsageError
+from proc3s.plugins.registry import Registry
 from proc3s.suites.outcomes import Unfinished
 from proc3s.suites.results import Results, read_figures
 from proc3s.suites.tables import SuiteTable, provenance, tables
@@ -16,7 +17,7 @@ FIGURES = "figures.csv"
 """The published figures, in the folder of the suite."""
 
 
-def write_files(results: Results, folder: Path, templates: Sequence[Path]) -> list[SuiteTable]:
+def write_files(results: Results, folder: Path, registry: Registry) -> list[SuiteTable]:
     """Write `results.*` into a folder; returns the tables. Raises UsageError."""
     from proc3s.suites.page import page
 
@@ -26,7 +27,7 @@ def write_files(results: Results, folder: Path, templates: Sequence[Path]) -> li
         "results.md": markdown(results, made),
         "results.csv": rows(results),
         "results.json": json.dumps(document(results, made), indent=2, ensure_ascii=False) + "\n",
-        "results.html": page(results, made, folder, templates),
+        "results.html": page(results, made, folder, registry),
     }
     for name, text in texts.items():
         try:

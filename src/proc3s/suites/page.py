@@ -1,6 +1,7 @@
 """The results of a suite as one HTML page that needs nothing from outside and runs nothing."""
 
 import base64
+import contextlib
 import hashlib
 import io
 from collections.abc import Iterator, Sequence
@@ -10,10 +11,13 @@ from typing import Any
 from markupsafe import Markup
 from PIL import Image, UnidentifiedImageError
 
-from proc3s.errors import UsageError
+from proc3s.errors import Proc3sError, UsageError
+from proc3s.planning.film import draw_pictures
+from proc3s.plugins.registry import Registry, folders_of
 from proc3s.reporting.history import read_story
 from proc3s.reporting.page import data_url, write
 from proc3s.reporting.templates import ReportTemplates
+from proc3s.runs.pictures import OUTCOME
 from proc3s.runs.reading import LOG
 from proc3s.suites.charts import curves, success_bars
 from proc3s.suites.results import Result, Results
@@ -23,9 +27,9 @@ THUMBNAIL = (260, 260)
 """Largest width and height of a picture in the gallery, pixels."""
 
 
-def page(results: Results, tables: Sequence[SuiteTable], folder: Path, templates: Sequence[Path]) -> str:
+def page(results: Results, tables: Sequence[SuiteTable], folder: Path, registry: Registry) -> str:
     """The page. Raises UsageError or SpecError for a template that is missing or does not render."""
-    pages = ReportTemplates(templates, html=True)
+    pages = ReportTemplates(folders_of(registry), html=True)
     css = pages.render("report.css") + pages.render("suite.css")
     charts = {"Success": success_bars(results), "Samples to a solution": curves(results)}
     return pages.render(
@@ -37,20 +41,22 @@ def page(results: Results, tables: Sequence[SuiteTable], folder: Path, templates
         origin=provenance(results),
         tables=tables,
         charts={title: data_url(svg.encode(), "svg+xml") for title, svg in charts.items() if svg},
-        gallery=list(_gallery(results, folder, templates)),
+        gallery=list(_gallery(results, folder, registry)),
         unfinished=results.unfinished,
     )
 
 
-def _gallery(results: Results, folder: Path, templates: Sequence[Path]) -> Iterator[dict[str, Any]]:
+def _gallery(results: Results, folder: Path, registry: Registry) -> Iterator[dict[str, Any]]:
     """Every episode in words, with the picture of what came of it."""
     for result in results.all:
+        run = folder / result.episode.run_dir
+        report = report_of(run, registry)  # which draws the outcome, too
         yield {
             "episode": result.episode,
             "verdict": result.verdict,
             "state": _state(result),
-            "picture": thumbnail(folder / result.episode.run_dir / "plan.png"),
-            "report": report_of(folder / result.episode.run_dir, templates),
+            "picture": thumbnail(run / OUTCOME),
+            "report": report,
         }
 
 
@@ -63,15 +69,19 @@ def _state(result: Result) -> tuple[str, str]:
     return result.word, "good" if result.success else "bad"
 
 
-def report_of(run: Path, templates: Sequence[Path]) -> str | None:
+def report_of(run: Path, registry: Registry) -> str | None:
     """The name of a run's page in its folder, which is written where it is missing or older than the log.
+
+    Of the pictures that are not there yet it draws that of the outcome alone.
 
     None where there is no log that can be read.
     """
     path, log = run / "report.html", run / LOG
     try:
         if not path.is_file() or path.stat().st_mtime < log.stat().st_mtime:
-            write(read_story(run), templates, path)
+            with contextlib.suppress(Proc3sError):  # it lacks a picture, then
+                draw_pictures(run, registry, steps=False)
+            write(read_story(run), folders_of(registry), path)
     except (UsageError, FileNotFoundError):
         return None
     return path.name

@@ -54,6 +54,8 @@ class Order:
     """Folder of templates that go before all others; it is among the arguments, too."""
     judged: Mapping[str, bool] = field(default_factory=dict)
     """Tasks that have a judge."""
+    filmed: frozenset[str] = frozenset()
+    """Tasks whose worlds keep films; others draw their outcome at once."""
     world_options: Mapping[str, str] = field(default_factory=dict)
     """Options of the world; they are among the arguments, too."""
 
@@ -176,6 +178,8 @@ class Runner:
         else:
             yield from (cell.task, "--method", cell.method, "--preset", cell.preset, "--seed", str(cell.seed))
             yield from ("--out", str(run), "--no-miss-picture")
+            if cell.task in self._order.filmed:
+                yield from ("--pictures", "none")  # drawn when the page is made
             for name, value in (("--samples", spec.samples), ("--feedback", spec.feedback)):
                 yield from (name, str(value)) if value is not None else ()
             yield from self._order.arguments

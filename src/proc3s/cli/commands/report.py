@@ -17,6 +17,7 @@ def report(
     plugin: a.Plugins = None,
 ) -> None:
     """Write a run as one HTML page: prompts, answers, programs, samples, failures, pictures, timings."""
+    from proc3s.cli.handlers.pictures import draw_or_say
     from proc3s.cli.handlers.runs import chosen_run
     from proc3s.plugins.registry import folders_of, open_registry
     from proc3s.reporting.history import read_story
@@ -24,7 +25,9 @@ def report(
 
     folder = chosen_run(run)
     path = out or folder / "report.html"
-    write(read_story(folder), folders_of(open_registry(plugin or [])), path)
+    registry = open_registry(plugin or [])
+    draw_or_say(folder, registry)
+    write(read_story(folder), folders_of(registry), path)
     typer.echo(path)
     if open_:
         typer.launch(path.resolve().as_uri())

@@ -28,7 +28,7 @@ from proc3s.runs.events import (
     Undrawn,
     Warned,
 )
-from proc3s.runs.folder import NEAREST_MISS
+from proc3s.runs.pictures import NEAREST_MISS
 from proc3s.wording import count
 
 _ORIGIN = {

@@ -18,9 +18,10 @@ from proc3s.llm.budget import Budget
 from proc3s.llm.config import choose_llm
 from proc3s.llm.errors import BudgetSpent
 from proc3s.planning.expense import in_words
+from proc3s.planning.film import films
 from proc3s.planning.limits import clock_only, make_limits
 from proc3s.planning.options import key_values
-from proc3s.plugins.registry import Registry, folders_of, open_registry
+from proc3s.plugins.registry import Registry, open_registry
 from proc3s.plugins.versions import versions
 from proc3s.specs.suite import Cell, SuiteSpec, load_suite
 from proc3s.suites.changes import changes
@@ -88,7 +89,7 @@ def _to_do(spec: SuiteSpec, resumed: Path | None) -> list[Cell]:
 
 
 def _carry_out(registry: Registry, order: Order, store: Store, wanted: SuiteWanted, as_json: bool) -> None:
-    spec, folder, templates = order.spec, store.folder, folders_of(registry)
+    spec, folder = order.spec, store.folder
     if wanted.resume is None:
         _begin(store, order)
     else:
@@ -102,12 +103,12 @@ def _carry_out(registry: Registry, order: Order, store: Store, wanted: SuiteWant
         with console:
             for outcome in runner.outcomes(todo):
                 console.add(outcome, runner.spent)
-                report_of(folder / RUNS / outcome.cell.folder, templates)  # now, so that the end is quick
+                report_of(folder / RUNS / outcome.cell.folder, registry)  # now, so that the end is quick
                 unfinished += [outcome] if isinstance(outcome, Unfinished) else []
     except KeyboardInterrupt:
         stopped = Interrupted("interrupted; what is finished is kept")
     results = read_results(folder)
-    tables = write_files(results, folder, templates)
+    tables = write_files(results, folder, registry)
     if as_json:
         print_document(json.dumps(document(results, tables), indent=2, ensure_ascii=False))
     else:
@@ -172,6 +173,7 @@ def _order(registry: Registry, wanted: SuiteWanted, spec: SuiteSpec) -> Order:
         max_cost=wanted.max_cost,
         template_dir=wanted.template_dir,
         judged=judged,
+        filmed=frozenset(task for task in spec.tasks if films(registry.task(task)[0])),
         world_options=key_values(list(wanted.world_options)),
     )
 

@@ -4,7 +4,8 @@ from pathlib import Path
 
 import typer
 
-from proc3s.plugins.registry import folders_of, open_registry
+from proc3s.plugins.registry import open_registry
+from proc3s.runs.pictures import OUTCOME
 from proc3s.runs.reading import options_of
 from proc3s.suites.export import write_files
 from proc3s.suites.outcomes import told
@@ -39,7 +40,7 @@ def step_through(folder: Path, everything: bool) -> None:
             store.judge(result.episode.cell, _ANSWERS[answer], why)
             kept += 1
     if kept:
-        write_files(read_results(folder), folder, folders_of(open_registry()))
+        write_files(read_results(folder), folder, open_registry())
     typer.echo(f"{count(kept, 'verdict')} kept in {folder}")
 
 
@@ -55,7 +56,7 @@ def _ask(folder: Path, result: Result) -> str:
     typer.echo(f"\n{episode.cell.folder}")
     typer.echo(f"  goal     {_goal(run)}")
     typer.echo(f"  machine  {_machine(result)}")
-    typer.echo(f"  picture  {run / 'plan.png'}")
+    typer.echo(f"  picture  {run / OUTCOME}")
     try:
         return str(typer.prompt(_QUESTION)).strip().lower()
     except typer.Abort:

@@ -95,7 +95,7 @@ def replay_run(run: Path, changes: dict[str, Any], out: Path | None, as_json: bo
     """Search the last program of a run again, with the random draws of its round."""
 
     def job() -> Job:
-        options = {**options_of(run), "no_miss_picture": False, **plain_options(changes)}
+        options = {**options_of(run), "no_miss_picture": False, "pictures": "last", **plain_options(changes)}
         if changes.get("executor") not in (None, options_of(run)["executor"]):
             options["jobs"] = 1  # those of the run were another executor's
         return Job(validate(RunOptions, options, str(run)), out, _program_of(run))
