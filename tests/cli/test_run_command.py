@@ -47,6 +47,7 @@ def test_the_first_command_of_the_readme(cli, here):
     names = {path.name for path in run.iterdir()}
     assert {
         "events.jsonl",
+        "film.json",
         "prompt-0.md",
         "answer-0.md",
         "program-0.py",

@@ -1,5 +1,6 @@
 """Pictures show what happened, and change nothing."""
 
+import json
 import subprocess
 import sys
 from dataclasses import replace
@@ -13,7 +14,7 @@ from test_world import PICK, PLACE, START
 from proc3s import Pose
 from proc3s_tabletop.bullet.pictures import Studio
 from proc3s_tabletop.bullet.scene import Snapshot
-from proc3s_tabletop.engine.looks import SIZE, UNKNOWN, color_of
+from proc3s_tabletop.engine.looks import SIZE, UNKNOWN, WOOD, color_of
 from proc3s_tabletop.objects.body import Body
 from proc3s_tabletop.objects.shapes import Bowl, Box, Cylinder
 from proc3s_tabletop.robot.frames import Frame
@@ -63,9 +64,11 @@ def test_there_is_a_picture_of_the_end_and_of_every_step(world, tmp_path):
     for action in PLAN:
         world.step(action)
     world.render(PLAN, tmp_path / "plan.png")
-    names = {path.name for path in tmp_path.iterdir()}
-    assert names == {"plan.png", "plan-step0.png", "plan-step1.png", "plan-step2.png"}
-    steps = [Image.open(tmp_path / f"plan-step{k}.png") for k in range(3)]
+    assert [path.name for path in tmp_path.iterdir()] == ["plan.png"]
+    film = json.loads(json.dumps(world.film()))
+    world.close()  # nothing is simulated for a film
+    world.render_film(START, {tmp_path / f"{k}.png": frame for k, frame in enumerate(film)})
+    steps = [Image.open(tmp_path / f"{k}.png") for k in range(3)]
     assert {step.size for step in steps} == {SIZE}
     assert (pixels(steps[2]) == pixels(Image.open(tmp_path / "plan.png"))).all()
     # The blue block goes from the right to the left of the picture, as the camera faces the robot.
@@ -84,7 +87,7 @@ def test_a_picture_changes_no_later_step(world, tmp_path):
     assert [*again, world.step(PLACE)] == first
 
 
-def test_pictures_begin_where_the_world_was_put_last(tmp_path):
+def test_a_film_begins_where_the_world_was_put_last():
     world = ReferenceWorld(SimpleNamespace(skill={"pick": pick, "place": place}.__getitem__))
     world.reset(START)
     world.step(PICK)
@@ -92,11 +95,9 @@ def test_pictures_begin_where_the_world_was_put_last(tmp_path):
     world.reset(START)
     world.resume(carrying)
     world.step(PLACE)
-    world.render(PLAN, tmp_path / "plan.png")
-    assert len(list(tmp_path.glob("plan-step*.png"))) == 2
+    assert len(world.film()) == 2
     world.reset(START)
-    world.render((), tmp_path / "again.png")
-    assert len(list(tmp_path.glob("again-step*.png"))) == 1
+    assert len(world.film()) == 1
     world.close()
 
 
@@ -131,6 +132,13 @@ def test_the_whole_table_is_in_view(studio):
         assert count > 100, name
         assert 5 < x < SIZE[0] - 5, name
         assert 5 < y < SIZE[1] - 5, name
+
+
+def test_no_edge_of_the_table_is_out_of_view(studio):
+    picture = pixels(studio({}, {}).picture(Snapshot(())))
+    edges = np.concatenate([picture[-1], picture[:, 0], picture[:, -1]])
+    wood = np.array(WOOD[:3]) / np.linalg.norm(WOOD[:3])
+    assert (edges @ wood / np.linalg.norm(edges, axis=1) < 0.985).all()
 
 
 def test_names_of_colours_are_what_they_say():
