@@ -59,7 +59,13 @@ def register_domains(register):
     register(spec("plain", Counter))
     register(spec("filmed", Filmed))
 """
-HOPS = 'def gen_plan(initial):\n    return [Action("hop", [2.0]), Action("hop", [3.0])]\n'
+HOPS = """
+def gen_plan(initial, x):
+    return [Action("hop", [2.0]), Action("hop", [3.0])]
+
+def gen_domain(initial):
+    return {"x": ContinuousSampler(0, 1)}
+"""
 
 
 @pytest.fixture
@@ -139,9 +145,11 @@ def test_the_page_of_an_episode_draws_the_outcome_alone(hopped, here):
     assert drawn(run) == {OUTCOME: "at 6.0 from 1.0"}
 
 
-def test_there_are_none_without_a_plan(cli, here, hopped):
+def test_there_are_none_without_a_plan(cli, here):
+    (here / "counter.py").write_text(PLUGIN)
     (here / "hops.py").write_text("def gen_plan(initial):\n    return [Action('hop', [None])]\n")
-    cli("solve", "filmed/far", "--sketch", "hops.py", "--out", "none", "--plugin", "counter.py")
+    more = ("--out", "none", "--plugin", "counter.py", "--pictures", "none")
+    assert cli("solve", "filmed/far", "--sketch", "hops.py", *more).code == 1
     done = cli("pictures", "none")
     assert (done.code, "has no pictures" in done.stderr) == (2, True)
 

@@ -1,9 +1,9 @@
 """Plugins: entry points and loose files, each loaded in its own `try`, wrapped in one typed manager."""
 
-import importlib.metadata
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
+from importlib.metadata import EntryPoint, entry_points
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +13,7 @@ from proc3s.errors import Issue, Proc3sError, SpecError, UsageError, blame, did_
 from proc3s.plugins import hookspecs
 from proc3s.plugins.loose_files import LOOSE_FILE
 from proc3s.plugins.loose_folders import loose_plugins
-from proc3s.plugins.versions import GROUP
+from proc3s.plugins.versions import GROUP, headers
 from proc3s.specs.base import Spec
 from proc3s.specs.domain import DomainSpec
 
@@ -43,9 +43,7 @@ class PluginManager:
         """What was named on the command line."""
         self._registered: dict[str, list[tuple[str, Spec]]] | None = None
         self.statuses: dict[str, PluginStatus] = {}
-        for entry_point in sorted(importlib.metadata.entry_points(group=GROUP), key=_order):
-            dist = entry_point.dist
-            source, version = (dist.name, dist.version) if dist else ("unknown", None)
+        for entry_point, source, version in _installed():
             self._load(PluginStatus(entry_point.name, source, version), entry_point.load)
         loose = Path.cwd() / LOOSE_FILE
         found = [*([loose] if loose.is_file() else []), *files]
@@ -180,10 +178,13 @@ class PluginManager:
                 yield answer
 
 
-def _order(entry_point: importlib.metadata.EntryPoint) -> tuple[bool, str]:
-    """Our own plugins first, then by the name of their distribution, however they were installed."""
-    name = entry_point.dist.name if entry_point.dist else ""
-    return name != GROUP, name
+def _installed() -> list[tuple[EntryPoint, str, str | None]]:
+    """Entry points with name and version of their distribution, however it was installed; our own first."""
+    points = entry_points(group=GROUP)
+    known = {dist: headers(dist) for dist in {point.dist for point in points} if dist}
+    found = [(point, known[point.dist] if point.dist else {}) for point in points]
+    told = [(point, head.get("Name", "unknown"), head.get("Version")) for point, head in found]
+    return sorted(told, key=lambda one: (one[1] != GROUP, one[1]))
 
 
 def _add(found: list[tuple[str, Spec]], kind: str, spec: Spec) -> None:

@@ -2,16 +2,18 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from proc3s import specs
-from proc3s.domain.domain import Domain
 from proc3s.errors import Issue, SpecError, UsageError, did_you_mean
 from proc3s.plugins.manager import PluginManager
 from proc3s.specs.base import Spec
 from proc3s.specs.domain import DomainSpec, TaskSpec
 from proc3s.specs.parts import TemplatesSpec
 from proc3s.specs.suite import SuiteSpec
+
+if TYPE_CHECKING:
+    from proc3s.domain.domain import Domain
 
 S = TypeVar("S", bound=Spec)
 
@@ -64,8 +66,10 @@ class Registry:
             f"\nplugin {s.name} ({s.source}) did not load: {s.error}" for s in self.plugins.failures
         )
 
-    def domain(self, name: str) -> Domain:
+    def domain(self, name: str) -> "Domain":
         """A domain with everything that plugins attach to it."""
+        from proc3s.domain.domain import Domain  # with NumPy, which a list of names does not need
+
         spec = self.get(DomainSpec, name)
         samplers = self.all(specs.SamplerSpec)
         if missing := [n for n in spec.samplers if n not in samplers]:
@@ -109,7 +113,7 @@ class Registry:
                     f"domain {spec.name} uses {name!r}, which no plugin brings{did_you_mean(name, offered)}"
                 )
 
-    def task(self, name: str) -> tuple[Domain, TaskSpec]:
+    def task(self, name: str) -> "tuple[Domain, TaskSpec]":
         """`domain/task` -> both. Raises UsageError with what exists."""
         domain_name, slash, task_name = name.partition("/")
         if not slash:

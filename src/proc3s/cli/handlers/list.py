@@ -4,19 +4,16 @@ import contextlib
 import json
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from pydantic import BaseModel
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from proc3s.benchmark.cases import find_cases
 from proc3s.cli.console.lines import print_line
 from proc3s.cli.failures import warn_of_failures
 from proc3s.cli.streams import json_of, print_document
-from proc3s.domain.domain import Domain
-from proc3s.domain.world_options import options_of
 from proc3s.errors import SpecError, UsageError, did_you_mean
 from proc3s.llm.call_options import CallOptions
 from proc3s.plugins.part_options import options_model
@@ -24,6 +21,9 @@ from proc3s.plugins.registry import KINDS, Registry, open_registry
 from proc3s.specs.base import Spec
 from proc3s.specs.domain import DomainSpec, ParamSpec, TaskSpec
 from proc3s.specs.parts import LLMSpec, SolverSpec
+
+if TYPE_CHECKING:
+    from proc3s.domain.domain import Domain
 
 
 def print_list(kind: str | None, plugins: Sequence[Path], as_json: bool) -> None:
@@ -128,7 +128,7 @@ def _options(flag: str, model: type[BaseModel]) -> Iterator[str]:
         yield escape(f"    {flag} {field}=…  {info.description or ''}{more}")
 
 
-def _describe_domain(domain: Domain) -> Iterator[str]:
+def _describe_domain(domain: "Domain") -> Iterator[str]:
     spec = domain.spec
     yield f"  {escape(spec.summary)}"
     if spec.folder:
@@ -156,13 +156,17 @@ def _describe_domain(domain: Domain) -> Iterator[str]:
 
 def _describe_programs(registry: Registry, spec: DomainSpec) -> Iterator[str]:
     """The programs that benchmarks run, which `--tasks` takes."""
+    from proc3s.benchmark.cases import find_cases  # with NumPy, too
+
     cases = [case.label for case in find_cases(registry) if case.task.partition("/")[0] == spec.name]
     if cases:
         yield f"  [bold]programs of `proc3s bench`[/] {escape(', '.join(cases))}"
 
 
-def _describe_world(domain: Domain) -> Iterator[str]:
+def _describe_world(domain: "Domain") -> Iterator[str]:
     """The options of the world; none of one that cannot be imported, which `proc3s check` says."""
+    from proc3s.domain.world_options import options_of  # with NumPy, which a list of names does not need
+
     with contextlib.suppress(SpecError):
         if options := [*_options("-W", options_of(domain))]:
             yield "  [bold]world[/]"
