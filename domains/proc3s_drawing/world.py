@@ -77,8 +77,10 @@ class Canvas(World[Stroke]):
     def render_film(self, initial: State, frames: Mapping[Path, Any]) -> None:
         """Draw lines on the canvas."""
         make_line: Any = self.domain.states.types["DrawnLine"]
+        self.state = initial
         for path, lines in frames.items():
-            self.state = dataclasses.replace(initial, drawn_lines=tuple(make_line(**line) for line in lines))
+            drawn = tuple(make_line(**line) for line in lines)
+            self.state = dataclasses.replace(self.state, drawn_lines=drawn)
             self._draw(path)
 
     def render_marked(self, plan: Plan, path: Path, marked: Sequence[str]) -> None:

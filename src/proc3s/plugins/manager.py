@@ -181,10 +181,10 @@ class PluginManager:
 def _installed() -> list[tuple[EntryPoint, str, str | None]]:
     """Entry points with name and version of their distribution, however it was installed; our own first."""
     points = entry_points(group=GROUP)
-    known = {dist: headers(dist) for dist in {point.dist for point in points} if dist}
-    found = [(point, known[point.dist] if point.dist else {}) for point in points]
-    told = [(point, head.get("Name", "unknown"), head.get("Version")) for point, head in found]
-    return sorted(told, key=lambda one: (one[1] != GROUP, one[1]))
+    heads = {dist: headers(dist) for dist in {point.dist for point in points} if dist}
+    known = {dist: (str(head["Name"]), head["Version"]) for dist, head in heads.items()}
+    found = [(point, *(known[point.dist] if point.dist else ("unknown", None))) for point in points]
+    return sorted(found, key=lambda one: (one[1] != GROUP, one[1]))
 
 
 def _add(found: list[tuple[str, Spec]], kind: str, spec: Spec) -> None:
