@@ -181,15 +181,15 @@ class TabletopWorld(World[Telemetry]):
         self.render_marked(plan, path, ())
 
     def film(self) -> list[dict[str, Any]]:
-        """What of every snapshot is seen."""
-        return [snapshot.seen() for snapshot in self._film]
+        """What pictures show of every snapshot."""
+        return [snapshot.filmed() for snapshot in self._film]
 
     def render_film(self, initial: State, frames: Mapping[Path, Any]) -> None:
         """Draw frames of a film: only what draws of the engine is started."""
         objects: Mapping[str, Any] = initial.objects  # type: ignore[attr-defined]
         with closing(self._studio(objects)) as studio:
             for path, frame in frames.items():
-                studio.picture(Snapshot.of_seen(frame)).save(path)
+                studio.picture(Snapshot.of_film(frame)).save(path)
 
     def render_marked(self, plan: Plan, path: Path, marked: Sequence[str]) -> None:
         """Draw the world after a plan, with a ring and the name around objects that are marked."""

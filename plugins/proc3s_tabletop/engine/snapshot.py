@@ -39,15 +39,15 @@ class Snapshot:
         true, believed = dict(self.frames)[name], dict(self.believed)
         return compose(true, believed[name]) if name in believed else true
 
-    def seen(self) -> dict[str, Any]:
-        """What a picture shows of it, as plain data."""
+    def filmed(self) -> dict[str, Any]:
+        """What a picture shows of it, as plain data: a frame of a film."""
         return {"frames": dict(self.frames), "q": self.q, "angle": self.angle, "linkage": self.linkage}
 
     @classmethod
-    def of_seen(cls, seen: Mapping[str, Any]) -> "Snapshot":
-        """A snapshot that looks as it was seen."""
-        frames = tuple((name, Frame(*map(tuple, frame))) for name, frame in seen["frames"].items())
-        return cls(frames, tuple(seen["q"]), seen["angle"], linkage=tuple(seen["linkage"]))
+    def of_film(cls, film: Mapping[str, Any]) -> "Snapshot":
+        """A snapshot that looks as it was filmed."""
+        frames = tuple((name, Frame(*map(tuple, frame))) for name, frame in film["frames"].items())
+        return cls(frames, tuple(film["q"]), film["angle"], linkage=tuple(film["linkage"]))
 
     def loose(self) -> dict[str, Frame]:
         """Where all objects are that are not in hand."""
