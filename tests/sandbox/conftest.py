@@ -1,6 +1,7 @@
 """A small drawing world, as the box sees it."""
 
 import textwrap
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -104,3 +105,10 @@ def gen_plan(state, x, y):
 def gen_domain(state):
     return {"x": ContinuousSampler(0, 100), "y": ContinuousSampler(20, 40)}
 """
+
+
+def descendants(process="self"):
+    """Process ids of the children of all threads, and of their children, and so on."""
+    tasks = Path(f"/proc/{process}/task").iterdir()
+    own = {child for task in tasks for child in (task / "children").read_text().split()}
+    return own.union(*map(descendants, own))

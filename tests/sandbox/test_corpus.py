@@ -10,7 +10,7 @@ import pytest
 from proc3s.sandbox import BoxedSketch, Limits
 from proc3s.sandbox.process import Launcher
 
-from .conftest import LINE, cube, program
+from .conftest import LINE, cube, descendants, program
 from .corpus import SHORT, cases, check, run
 
 HOSTILE, ORDINARY = cases("hostile"), cases("ordinary")
@@ -25,16 +25,10 @@ def twice(every):
     return off + [pytest.param(case, True, id=f"{case.name}-friendly", marks=slow) for case in every]
 
 
-def children():
-    """Process ids of the children of all threads."""
-    tasks = Path("/proc/self/task").iterdir()
-    return {child for task in tasks for child in (task / "children").read_text().split()}
-
-
 def condition():
     """Everything of this process that a program might harm."""
     return {
-        "children": children(),
+        "children": descendants(),
         "descriptors": {path.name for path in Path("/proc/self/fd").iterdir()},
         "environment": dict(os.environ),
         "folder": Path.cwd(),
@@ -87,7 +81,7 @@ def test_hostile(case, friendly, workers, usual, monkeypatch):
     assert "hunter2" not in str(result)
     assert 1 <= len(workers) <= 4  # another where a sample hung or killed the last
     for worker in workers:
-        assert worker.returncode is not None
+        assert worker.exit_code() is not None
         assert session_of(worker.pid) == []
     with BoxedSketch(program(LINE)) as sketch:
         assert np.array_equal(sketch.plans(cube(5, 2)).values, usual)

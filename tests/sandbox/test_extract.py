@@ -49,7 +49,7 @@ def test_no_program(answer):
     "answer", ["```" + "x" * 10**6 + "`", "\n" * 10**6, "``` " + " " * 10**6 + "`", "`" * 10**6]
 )
 def test_no_answer_takes_long_to_search(answer):
-    started = time.monotonic()
+    started = time.process_time()
     with pytest.raises(SketchContractError):
         extract_program(answer)
-    assert time.monotonic() - started < 2
+    assert time.process_time() - started < 2

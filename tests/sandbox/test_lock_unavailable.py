@@ -9,6 +9,7 @@ import pytest
 
 from proc3s.sandbox import BoxedSketch, SandboxUnavailable
 from proc3s.sandbox.boxed.lock import Unavailable, lock_down
+from proc3s.sandbox.process import launcher
 
 from .conftest import LINE, program
 
@@ -56,12 +57,22 @@ def test_an_unknown_processor_is_refused(monkeypatch):
         lock_down(1 << 30, 10)
 
 
+@pytest.fixture
+def no_template():
+    """The process that boxes are forked from is started anew, and not used after this test."""
+    launcher.cache_clear()
+    yield
+    launcher.cache_clear()
+
+
+@pytest.mark.usefixtures("no_template")
 def test_an_interpreter_that_cannot_start(monkeypatch):
     monkeypatch.setattr("sys.executable", "/nowhere/python")
     with pytest.raises(SandboxUnavailable, match="/nowhere/python cannot be started"):
         BoxedSketch(program(LINE))
 
 
+@pytest.mark.usefixtures("no_template")
 def test_a_worker_that_dies_early_says_why(monkeypatch, tmp_path):
     python = tmp_path / "python"
     python.write_text("#!/bin/sh\necho \"ModuleNotFoundError: No module named 'numpy'\" >&2; exit 1\n")

@@ -17,17 +17,11 @@ import pytest
 from proc3s.sandbox import BoxedSketch, Limits, SketchError, SketchMemoryError, prewarm
 from proc3s.sandbox.process import launcher
 
-from .conftest import LINE, cube, program
+from .conftest import LINE, cube, descendants, program
 
 
 def pid_of(sketch):
     return sketch._channel._worker.pid
-
-
-def children():
-    """Process ids of the children of all threads."""
-    tasks = Path("/proc/self/task").iterdir()
-    return {child for task in tasks for child in (task / "children").read_text().split()}
 
 
 def test_the_next_box_takes_the_warm_worker():
@@ -45,7 +39,7 @@ def test_a_spare_that_died_is_replaced():
     prewarm(limits)
     [spare] = launcher()._spares[limits.memory, limits.cpu, True]
     os.kill(spare.pid, signal.SIGKILL)
-    spare.wait()
+    assert spare.wait(5) == -signal.SIGKILL
     with BoxedSketch(program(LINE), limits) as sketch:
         assert pid_of(sketch) != spare.pid
 
@@ -56,7 +50,7 @@ def descriptors():
 
 def test_nothing_is_left_behind():
     BoxedSketch(program(LINE)).close()
-    before = children(), descriptors()
+    before = descendants(), descriptors()
     for source in (LINE, "syntax error", LINE, "raise SystemExit", LINE):
         try:
             with BoxedSketch(program(source)) as sketch:
@@ -65,7 +59,7 @@ def test_nothing_is_left_behind():
             continue
     dropped = BoxedSketch(program(LINE))
     del dropped
-    assert (children(), descriptors()) == before
+    assert (descendants(), descriptors()) == before
 
 
 def test_boxes_in_several_threads_do_not_mix():
@@ -163,7 +157,7 @@ def test_two_hundred_programs_leave_nothing_behind(tmp_path, monkeypatch):
     monkeypatch.setenv("TMPDIR", str(tmp_path))  # a folder of its own: other tests use the common one
     monkeypatch.setattr(tempfile, "tempdir", None)
     BoxedSketch(program(LINE)).close()
-    before = children(), descriptors()
+    before = descendants(), descriptors()
     sources = [
         LINE,
         "syntax error",
@@ -177,13 +171,13 @@ def test_two_hundred_programs_leave_nothing_behind(tmp_path, monkeypatch):
                 sketch.plans(cube(3, 2))
         except SketchError:
             continue
-    assert (children(), descriptors()) == before
+    assert (descendants(), descriptors()) == before
     assert list(tmp_path.iterdir()) == []
     assert zombies() == []
 
 
 def zombies():
-    status = (Path(f"/proc/{pid}/status").read_text() for pid in children())
+    status = (Path(f"/proc/{pid}/status").read_text() for pid in descendants())
     return [text for text in status if "State:\tZ" in text]
 
 
@@ -200,7 +194,7 @@ def test_a_forked_child_leaves_the_workers_of_its_parent_alone():
             os._exit(0)
         os.waitpid(child, 0)
         assert len(sketch.plans(cube(5, 2))) == 5
-        assert spare.poll() is None
+        assert spare.exit_code() is None
 
 
 def test_without_the_lock_the_limits_stay():

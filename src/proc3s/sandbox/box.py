@@ -17,7 +17,7 @@ from proc3s.sandbox.columns import Columns
 from proc3s.sandbox.contract import OpenParameter, in_order, issue, open_parameters, space_of
 from proc3s.sandbox.errors import SketchContractError, SketchCrash, SketchError
 from proc3s.sandbox.limits import Limits
-from proc3s.sandbox.process import Kind, launcher
+from proc3s.sandbox.process import launcher
 from proc3s.sandbox.protocol import (
     CONTENTS,
     FAULT,
@@ -30,6 +30,7 @@ from proc3s.sandbox.protocol import (
     parse,
 )
 from proc3s.sandbox.restarts import Restarts, in_both, told_of_all
+from proc3s.sandbox.template import Kind
 from proc3s.sandbox.text import Source, clean, message
 from proc3s.specs.domain import SamplerSpec
 

@@ -6,7 +6,6 @@ import os
 import re
 import select
 import signal
-import subprocess
 import time
 
 import numpy as np
@@ -15,8 +14,8 @@ from proc3s.domain.values import FloatArray
 from proc3s.sandbox.boxed.wire import ERROR, FILENAME, FIRST_SAMPLE, READY, REQUEST, RUN, UNAVAILABLE
 from proc3s.sandbox.errors import SandboxUnavailable, SketchCrash, SketchError, SketchTimeout
 from proc3s.sandbox.limits import Limits
-from proc3s.sandbox.process import Worker, end
 from proc3s.sandbox.protocol import TEXT, Malformed, Replies, frame_of, parse
+from proc3s.sandbox.template import Worker
 from proc3s.sandbox.text import Source, message
 
 _PIPE = 512 << 10
@@ -42,14 +41,10 @@ class Channel:
     """The pipes of one worker. After an error there is nothing to do but `close`."""
 
     def __init__(self, worker: Worker, source: Source, limits: Limits) -> None:
-        assert worker.stdin
-        assert worker.stdout
-        assert worker.stderr
         self._worker = worker
         self._source = source
         self._limits = limits
-        self._requests, self._replies = worker.stdin.fileno(), worker.stdout.fileno()
-        self._traces = worker.stderr.fileno()
+        self._requests, self._replies, self._traces = worker.requests, worker.replies, worker.traces
         for descriptor in (self._requests, self._replies, self._traces):
             os.set_blocking(descriptor, False)
         with contextlib.suppress(OSError, AttributeError):  # only slower where there is no so large a pipe
@@ -59,7 +54,7 @@ class Channel:
 
     def close(self) -> None:
         """End the worker; harmless when it has ended."""
-        end(self._worker)
+        self._worker.close()
 
     def wait_until_ready(self) -> None:
         """Wait until the worker is locked. Raises SandboxUnavailable."""
@@ -68,9 +63,8 @@ class Channel:
             reason = parse(TEXT, body)
         except (_Late, _Ended, Malformed):
             lines = self._trace(0.2).decode(errors="replace").strip().splitlines()
-            raise SandboxUnavailable(
-                f"the worker does not start ({message(lines[-1] if lines else '?')})"
-            ) from None
+            reason = lines[-1] if lines else self._worker.last_line()
+            raise SandboxUnavailable(f"the worker does not start ({message(reason or '?')})") from None
         if kind != READY:
             raise SandboxUnavailable(message(reason))
 
@@ -167,16 +161,13 @@ class Channel:
         return frame
 
     def _timeout(self, limit: str) -> SketchTimeout:
-        self._worker.send_signal(signal.SIGUSR1)
+        self._worker.exit_code(signal.SIGUSR1)
         error = SketchTimeout(limit, *self._running_line(0.3))
         error.alone = True
         return error
 
     def _crash(self) -> SketchError:
-        try:
-            code = self._worker.wait(0.5)
-        except subprocess.TimeoutExpired:
-            code = 0
+        code = self._worker.wait(0.5) or 0
         line, text = self._running_line(0.1)
         if code == -signal.SIGXCPU:
             return SketchTimeout(f"the program used more than {self._limits.cpu} s of CPU time", line, text)

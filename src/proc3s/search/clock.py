@@ -1,4 +1,4 @@
-"""Where the seconds go: wall and CPU time by stage, children included."""
+"""Where the seconds go: wall and CPU time by stage, children and boxes included."""
 
 import math
 import os
@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 
 from proc3s.errors import OutOfTime
+from proc3s.sandbox.process import launcher
 
 STAGES = ("llm", "solve", "execute")
 """Stages of a run."""
@@ -60,8 +61,9 @@ class Deadline:
 
 
 def _now() -> tuple[float, float]:
-    children = os.times()
-    return time.perf_counter(), time.process_time() + children.children_user + children.children_system
+    times = os.times()
+    boxes = launcher().cpu_seconds
+    return time.perf_counter(), time.process_time() + times.children_user + times.children_system + boxes
 
 
 def _since(begun: tuple[float, float]) -> tuple[float, float]:

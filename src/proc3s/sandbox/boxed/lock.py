@@ -72,9 +72,19 @@ def restrain(memory: int, cpu_seconds: int) -> None:
             step()
 
 
+def disarm() -> None:
+    """Give up all privileges, each as far as this system knows it, and end with the parent."""
+    for step in _renounce():
+        with contextlib.suppress(*_REFUSALS):
+            step()
+
+
 def _steps(memory: int, cpu_seconds: int) -> list[Callable[[], None]]:
+    return [lambda: _limit_resources(memory, cpu_seconds), *_renounce()]
+
+
+def _renounce() -> list[Callable[[], None]]:
     return [
-        lambda: _limit_resources(memory, cpu_seconds),
         _drop_privileges,
         # the parent-death signal is forgotten when the user changes, so it comes after that
         lambda: _prctl(_PR_SET_PDEATHSIG, _SIGKILL),

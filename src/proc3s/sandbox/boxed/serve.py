@@ -1,4 +1,4 @@
-"""The worker's main: lock down first, then load a program and answer rows with plans."""
+"""The box's main: lock down first, then load a program and answer rows with plans."""
 
 import contextlib
 import faulthandler
@@ -9,6 +9,7 @@ import os
 import signal
 import struct
 import sys
+from functools import cache
 from typing import Any, TextIO, cast
 
 from .encoding import Unfit
@@ -34,16 +35,18 @@ from .wire import (
 _RESERVE = 4 << 20
 
 
-def main() -> None:
-    """Serve requests until the other side closes the pipe.
+@cache
+def prepare() -> tuple[str, ...]:
+    """Import all that a program may import, once; returns the names."""
+    return import_everything()
 
-    Arguments: memory in bytes, CPU seconds, and `locked` or `unlocked`.
-    """
-    memory, cpu_seconds = map(int, sys.argv[1:3])
-    importable = import_everything()
+
+def main(memory: int, cpu_seconds: int, locked: bool) -> None:
+    """Serve requests until the other side closes the pipe; `memory` is in bytes."""
+    importable = prepare()
     try:
         _move_pipes()
-        (lock_down if sys.argv[3] == "locked" else restrain)(memory, cpu_seconds)
+        (lock_down if locked else restrain)(memory, cpu_seconds)
     except (Unavailable, OSError) as error:
         _write(_frame(0, UNAVAILABLE, str(error)))
         return

@@ -4,6 +4,10 @@ A request is an operation, a length and a body; a reply is a sample number, a ki
 length and a body. LOAD and PROBE carry JSON or one row; RUN carries rows of float64. Every row is answered
 by exactly one PLAN (skill numbers, one byte each, then float64 values) or ERROR (JSON), written at once so
 that it survives whatever the next row does; a LOG (JSON) may precede it.
+
+The template of the boxes takes orders: an operation, the number of a box and three values. BOX (memory in
+bytes, CPU seconds, locked or not) comes with the PIPES of the box and has no answer; SIGNAL (its number, or
+0) is answered with process id, exit code or RUNNING, and the CPU seconds of the template and ended boxes.
 """
 
 import struct
@@ -14,6 +18,13 @@ FIRST_SAMPLE = struct.Struct("<I")
 
 REPLY = struct.Struct("<IHHI")
 READY, UNAVAILABLE, LOADED, PROBED, PLAN, ERROR, LOG = range(7)
+
+ORDER = struct.Struct("<cIQQQ")
+BOX, SIGNAL = b"B", b"S"
+PIPES = 3
+BOX_STATE = struct.Struct("<iid")
+RUNNING = 1 << 16
+"""No process ends with this code."""
 
 FILENAME = "<program>"
 """What tracebacks call the program."""
