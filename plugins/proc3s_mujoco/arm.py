@@ -25,9 +25,10 @@ class Robot(Hand):
         super().__init__(state, settings)
         model = state.model
         joints = [model.joint(f"{ARM}{name}_joint") for name in JOINTS]
-        self._arm = [int(joint.qposadr[0]) for joint in joints]
-        self._arm_speeds = [int(joint.dofadr[0]) for joint in joints]
-        self._arm_motors = [int(model.actuator(ARM + name).id) for name in JOINTS]
+        self._arm = _run([int(joint.qposadr[0]) for joint in joints])
+        self._arm_speeds = _run([int(joint.dofadr[0]) for joint in joints])
+        self._arm_motors = _run([int(model.actuator(ARM + name).id) for name in JOINTS])
+        self._torques: Sequence[float] = ()
         self.put_arm(np.array(HOME))
 
     def put_arm(self, q: FloatArray) -> None:
@@ -39,7 +40,9 @@ class Robot(Hand):
 
     def drive_arm(self, q: FloatArray, torques: Sequence[float]) -> None:
         """Let the motors turn the arm towards joint angles (6,) with at most these torques, Nm."""
-        self.state.model.actuator_forcerange[self._arm_motors] = np.outer(torques, [-1.0, 1.0])
+        if torques != self._torques:
+            self.state.model.actuator_forcerange[self._arm_motors] = np.outer(torques, [-1.0, 1.0])
+            self._torques = torques
         self._goal = np.asarray(q, float)
 
     def read_arm(self) -> tuple[FloatArray, FloatArray]:
@@ -57,10 +60,18 @@ class Robot(Hand):
     @property
     def steady(self) -> bool:
         """Whether the motors are told the same in every tick from now on."""
-        return super().steady and bool((self._goal == self._before).all())
+        return super().steady and self._goal is self._before
 
     def restore(self) -> None:
         """Set what was set, after the data was reset."""
         self.put_arm(self.q)
         self.put_fingers(self.angle)
         self.hold_fingers(self._target)
+
+
+def _run(indices: list[int]) -> slice:
+    """Indices that follow one another, as a slice, which is fast. Raises ValueError for others."""
+    first = indices[0]
+    if indices != [*range(first, first + len(indices))]:
+        raise ValueError(f"the joints of the arm are not in a row: {indices}")
+    return slice(first, first + len(indices))

@@ -85,7 +85,7 @@ class Hand(ABC):
         """Tell the motors what to do in the next tick."""
         settings = self.settings
         step = settings.finger_speed * settings.speed * settings.tick
-        self._command += float(np.clip(self._target - self._command, -step, step))
+        self._command += max(-step, min(step, self._target - self._command))
         self.state.data.ctrl[self._motor] = FULL * self._command
 
     @property
@@ -96,8 +96,9 @@ class Hand(ABC):
     def read_fingers(self) -> tuple[float, float]:
         """Angle (rad) and speed (rad/s) of the finger joint."""
         data = self.state.data
-        angles, speeds = data.qpos[self._joints], data.qvel[self._speeds]
-        return float(angles[self._drivers].mean()), float(speeds[self._drivers].mean())
+        angles = [float(data.qpos[self._joints[k]]) for k in self._drivers]
+        speeds = [float(data.qvel[self._speeds[k]]) for k in self._drivers]
+        return sum(angles) / len(angles), sum(speeds) / len(speeds)
 
     def held_angle(self) -> float:
         """The angle that the fingers are to be put to so that they are where they are now, under load."""
