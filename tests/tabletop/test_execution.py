@@ -10,6 +10,7 @@ from test_agreement import resident
 from test_world import PICK, PLACE, START
 
 from proc3s_tabletop.actions.execution import Execution
+from proc3s_tabletop.bullet import scene as bullet_scene
 from proc3s_tabletop.robot.settings import ReferenceSettings
 from proc3s_tabletop.skills import pick, place
 from proc3s_tabletop.telemetry import displacement
@@ -126,6 +127,43 @@ def test_a_step_depends_on_its_snapshot_alone(table):
         assert (fresh.pick(*test_actions.A), fresh.snapshot) == first[0]
     finally:
         fresh.close()
+
+
+@pytest.mark.parametrize("goal", [(0.27, -0.77), (-0.28, -0.74), (-0.25, -0.22)])
+def test_what_is_carried_to_the_edge_of_the_table_stands_where_it_is_to_be(table, goal):
+    table.pick(*test_actions.A)
+    table.place(*goal, 0.02)
+    assert position(table, "a")[:2] == pytest.approx(goal, abs=3e-4)
+
+
+PUSHED = {
+    "a": (0.0, -0.5, 0.02),
+    "b": (0.0, -0.545, 0.02),
+    "c": (0.0, -0.589, 0.02),
+    "bowl": (0.2, -0.3, 0.025),
+}
+
+
+def pushing():
+    """A pick beside a block, which the fingers push into the next, and that into another."""
+    made = executing(PUSHED)
+    made.pick(0.0, -0.47, 0.02)
+    return made
+
+
+def test_what_sleeps_is_woken_by_a_push(monkeypatch):
+    slept = pushing()
+    monkeypatch.setattr(bullet_scene, "LOOK", 10**9)
+    awake = pushing()
+    try:
+        assert slept.snapshot != awake.snapshot
+        assert position(slept, "b")[1] < -0.549
+        assert position(slept, "c")[1] < -0.589
+        for name in ("b", "c", "bowl"):
+            assert position(slept, name) == pytest.approx(position(awake, name), abs=3e-4)
+    finally:
+        slept.close()
+        awake.close()
 
 
 @pytest.mark.slow

@@ -8,9 +8,10 @@ import numpy as np
 from proc3s import FloatArray
 from proc3s_tabletop.actions.attempt import Attempt, Stopped
 from proc3s_tabletop.actions.motion import line_down
-from proc3s_tabletop.actions.motors import ITERATIONS, Motors
+from proc3s_tabletop.actions.motors import FLAT, ROUND, Motors
 from proc3s_tabletop.actions.outcome import compare, note_bounds
 from proc3s_tabletop.actions.table import Table
+from proc3s_tabletop.objects.shapes import Bowl, Box
 from proc3s_tabletop.robot.frames import Frame, Held
 from proc3s_tabletop.telemetry import Attempted, Telemetry, displacement, least
 
@@ -29,13 +30,18 @@ class Execution(Table):
         """Go down until the hand or its load meets something, open it, and leave."""
         return self._carry_out("place", place, grasp)
 
+    def _iterations(self) -> int:
+        """Of the solver, as many as what is there to be held needs."""
+        flat = all(isinstance(body.shape, Box | Bowl) for body in self.scene.shapes.values())
+        return FLAT if flat else ROUND
+
     def _carry_out(
         self, attempted: Attempted, action: Callable[[Attempt, FloatArray], None], grasp: FloatArray
     ) -> Telemetry:
         """Run an action from the snapshot and keep where it led to."""
         x, y = grasp[:2, 3].tolist()
         self.scene.load(self.snapshot)
-        self.scene.set_iterations(ITERATIONS)
+        self.scene.set_iterations(self._iterations())
         attempt = Attempt(self.scene, attempted, grasp)
         self.attempts += 1
         try:

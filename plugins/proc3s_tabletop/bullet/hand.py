@@ -73,6 +73,11 @@ class Hand(ABC):
                 spinningFriction=0.002,
             )
 
+    def anchor_pads(self) -> None:
+        """Let friction pull what the pads hold back to where they took it, so that nothing creeps."""
+        for pad in self._pads:
+            self.client.changeDynamics(self.id, pad, frictionAnchor=1)
+
     def part(self, link: int) -> str:
         """What people call a link."""
         return "gripper"

@@ -14,9 +14,20 @@ from proc3s_tabletop.objects.body import Body
 from proc3s_tabletop.robot.frames import Held, rounded
 from proc3s_tabletop.robot.settings import HOME, ReferenceSettings
 
+LOOK = 12
+"""Ticks between looks at what could sleep."""
+ASLEEP = 3e-4
+"""What is slower then falls asleep, m/s and rad/s: twice what the solver leaves; what topples is faster."""
+AWAKE = 1e-6
+"""What is touched by something that is awake is simulated; when the squares of its speeds sum up to more than
+this, it stays awake without a touch, too."""
+
 
 class Scene(TableScene):
-    """A table with its top at z = 0, the robot, and the named bodies."""
+    """A table with its top at z = 0, the robot, and the named bodies.
+
+    Time passes without objects at rest until something touches them.
+    """
 
     robot: Robot
 
@@ -37,6 +48,45 @@ class Scene(TableScene):
             # The base stands on the table.
             on = int(link > self.robot.base)
             self.client.setCollisionFilterPair(self.robot.id, self.table, link, -1, on)
+        self.robot.anchor_pads()
+        # Only what touches, directly or through others, is solved together.
+        self.client.setPhysicsEngineParameter(minimumSolverIslandSize=1)
+        self._ticks = 0
+
+    def clear(self) -> None:
+        """Park every body, awake, and forget all contacts."""
+        super().clear()
+        if self._ticks:
+            for name in self.bodies:
+                self._let_sleep(name, False)
+            super().tick()  # What sleeps wakes at the end of a step.
+            super().clear()
+            self._ticks = 0
+
+    def tick(self, count: int = 1) -> None:
+        """Let time pass."""
+        for _ in range(count):
+            super().tick()
+            self._ticks += 1
+            if self._ticks % LOOK == 0:
+                for name in self.bodies:
+                    self._let_sleep(name, self._at_rest(name))
+
+    def _at_rest(self, name: str) -> bool:
+        """Whether an object stands, and nothing of the robot touches it."""
+        return max(self.speeds(name)) < ASLEEP and not self.client.getContactPoints(
+            self.robot.id, self.bodies[name]
+        )
+
+    def _let_sleep(self, name: str, on: bool) -> None:
+        """Let an object sleep until something touches it, or keep it awake."""
+        client = self.client
+        state = (
+            client.ACTIVATION_STATE_SLEEP | client.ACTIVATION_STATE_ENABLE_SLEEPING
+            if on
+            else client.ACTIVATION_STATE_WAKE_UP | client.ACTIVATION_STATE_DISABLE_SLEEPING
+        )
+        client.changeDynamics(self.bodies[name], -1, activationState=state, sleepThreshold=AWAKE)
 
     def support(self, name: str) -> str | None:
         """What pushes an object up hardest."""
