@@ -88,24 +88,18 @@ class Canvas(World[Stroke]):
         self._draw(path, marked, "red" if plan else "black")
 
     def _draw(self, path: Path, marked: Sequence[str] = (), last: str = "black") -> None:
-        from matplotlib.backends.backend_agg import FigureCanvasAgg
-        from matplotlib.figure import Figure
-        from matplotlib.patches import Circle
+        from proc3s_drawing.picture import Picture
 
-        figure = Figure(figsize=(5, 5), dpi=120, layout="tight")
-        FigureCanvasAgg(figure)
-        axes = figure.subplots()
-        axes.set(xlim=(0, CANVAS_SIZE), ylim=(0, CANVAS_SIZE), aspect="equal", xlabel="x", ylabel="y")
+        picture = Picture(CANVAS_SIZE)
         for o in self.state.obstacles:
-            axes.add_patch(Circle((o.x_pos, o.y_pos), o.radius, color=o.color, alpha=0.5, linewidth=0))
-            if o.name in marked:
-                axes.add_patch(Circle((o.x_pos, o.y_pos), o.radius, fill=False, color="red", linewidth=2.5))
-            axes.text(o.x_pos, o.y_pos, o.name, ha="center", va="center", fontsize=7)
+            picture.disc((o.x_pos, o.y_pos), o.radius, o.color, "red" if o.name in marked else None)
+            picture.name((o.x_pos, o.y_pos), o.name)
         lines = self.state.drawn_lines
         for n, line in enumerate(lines, start=1):
-            shade = last if n == len(lines) else str(0.5 * (1 - n / len(lines)))
-            axes.plot([line.p1_x, line.p2_x], [line.p1_y, line.p2_y], color=shade, linewidth=2)
-        figure.savefig(path)
+            shade = round(255 * 0.5 * (1 - n / len(lines)))
+            color = last if n == len(lines) else (shade, shade, shade)
+            picture.line((line.p1_x, line.p1_y), (line.p2_x, line.p2_y), color)
+        picture.save(path)
 
 
 def _distances(centres: FloatArray, p1: tuple[float, float], p2: tuple[float, float]) -> FloatArray:

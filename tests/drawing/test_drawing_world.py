@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+from PIL import Image
 
 from proc3s import Action, Problem
 from proc3s.domain.world import make_world
@@ -197,8 +198,32 @@ def test_a_scene_without_room_is_given_up_in_time(drawing):
     assert time.process_time() - begun < 5
 
 
-def test_a_picture_is_drawn(drawing, world, tmp_path):
-    plan = (Action("draw_line", (10.0, 10.0, 90.0, 90.0)),)
+def test_a_picture_shows_obstacles_lines_and_what_is_marked(drawing, world, tmp_path):
+    plan = (Action("draw_line", (10.0, 60.0, 90.0, 60.0)), Action("draw_line", (10.0, 90.0, 90.0, 90.0)))
     carry_out(world, problem_of(drawing, [(50.0, 20.0, 10.0)]), plan, False)
-    world.render(plan, tmp_path / "plan.png")
-    assert (tmp_path / "plan.png").read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
+    path = tmp_path / "plan.png"
+    world.render(plan, path)
+    plain, at = picture_of(path)
+    assert plain[at(53, 15)] == (255, 127, 127)  # half red, beside its name
+    assert plain[at(30, 40)] == (255, 255, 255)
+    assert plain[at(30, 90)] == (0, 0, 0)
+    assert len(set(plain[at(30, 60)])) == 1
+    assert 40 < plain[at(30, 60)][0] < 90  # earlier lines are lighter
+    world.render_marked(plan, path, ["object_0"])
+    marked, _ = picture_of(path)
+    assert marked[at(50, 10.5)] == (255, 0, 0) != plain[at(50, 10.5)]
+    assert marked[at(30, 90)] == (255, 0, 0)
+
+
+def picture_of(path):
+    """Its pixels, and where a point of the canvas is among them, found by the frame around the canvas."""
+    image = Image.open(path).convert("RGB")
+    dark = np.asarray(image).sum(2) < 300
+    (left, right), (top, bottom) = (np.flatnonzero(dark.sum(axis) > 400)[[0, -1]] for axis in (0, 1))
+    side = right - left
+    assert abs(side - (bottom - top)) <= 1
+
+    def at(x, y):
+        return round(left + x / 100 * side), round(bottom - y / 100 * side)
+
+    return image.load(), at
