@@ -8,6 +8,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from matplotlib.colors import CSS4_COLORS, is_color_like, to_rgba
 from PIL import Image
 from test_world import PICK, PLACE, START
 
@@ -144,6 +145,12 @@ def test_names_of_colours_are_what_they_say():
     red, green, blue, yellow = (np.array(color_of(name)[:3]) for name in ("red", "green", "blue", "yellow"))
     assert (red.argmax(), green.argmax(), blue.argmax(), yellow.argmin()) == (0, 1, 2, 2)
     assert color_of("mauve-ish") == color_of("") == UNKNOWN
+
+
+@pytest.mark.parametrize("name", [*CSS4_COLORS, "tab:blue", "C1", "r", "0.5", "#abc", "#aabbcc80"])
+def test_colours_are_those_of_matplotlib_softer_ones_first(name):
+    softer = "gold" if name == "yellow" else f"tab:{name}" if is_color_like(f"tab:{name}") else name
+    assert color_of(name) == pytest.approx(to_rgba(softer), abs=0.002)
 
 
 def test_nothing_is_loaded_for_pictures_that_nobody_asks_for():

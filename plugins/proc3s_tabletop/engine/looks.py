@@ -37,16 +37,41 @@ AMBIENT, DIFFUSE = 0.6, 0.5
 WOOD = (0.80, 0.71, 0.58, 1.0)
 THICKNESS = 0.04
 """Of the top of the table, m."""
+_SOFT = {
+    "blue": "#1f77b4",
+    "brown": "#8c564b",
+    "cyan": "#17becf",
+    "gray": "#7f7f7f",
+    "green": "#2ca02c",
+    "grey": "#7f7f7f",
+    "olive": "#bcbd22",
+    "orange": "#ff7f0e",
+    "pink": "#e377c2",
+    "purple": "#9467bd",
+    "red": "#d62728",
+    "yellow": "gold",
+}
+"""Matplotlib's, but for yellow."""
 UNKNOWN = (0.6, 0.6, 0.6, 1.0)
 """For a colour that nobody knows."""
 
 
 def color_of(name: str) -> Color:
     """RGBA of a colour by its name; pure colours are toned down where matplotlib has a softer one."""
+    from PIL import ImageColor
+
+    try:
+        red, green, blue, *opacity = ImageColor.getrgb(_SOFT.get(name, name))
+    except ValueError:
+        return _rare(name) if name else UNKNOWN
+    return red / 255, green / 255, blue / 255, (opacity or [255])[0] / 255
+
+
+def _rare(name: str) -> Color:
+    """A colour that only matplotlib knows by this name; not asked first, as it takes long to import."""
     from matplotlib.colors import is_color_like, to_rgba
 
-    candidates = ["gold"] if name == "yellow" else [f"tab:{name}", name]
-    return next((to_rgba(candidate) for candidate in candidates if is_color_like(candidate)), UNKNOWN)
+    return to_rgba(name) if is_color_like(name) else UNKNOWN
 
 
 def background(height: int) -> Any:

@@ -1,5 +1,6 @@
 """A sentence below a picture."""
 
+from importlib.util import find_spec
 from pathlib import Path
 from textwrap import wrap
 
@@ -13,10 +14,9 @@ LONGEST = 400
 
 def write_below(picture: Path, text: str) -> None:
     """Add a sentence to a PNG file, on a white strip below what it shows."""
-    import matplotlib as mpl
     from PIL import Image, ImageDraw, ImageFont
 
-    font = ImageFont.truetype(str(Path(mpl.get_data_path()) / "fonts/ttf/DejaVuSans.ttf"), SIZE)
+    font = ImageFont.truetype(str(_font()), SIZE)
     with Image.open(picture) as opened:
         image = opened.convert("RGB")
     letters = int((image.width - 2 * MARGIN) / (0.62 * SIZE))
@@ -26,3 +26,11 @@ def write_below(picture: Path, text: str) -> None:
     whole.paste(image)
     ImageDraw.Draw(whole).multiline_text((MARGIN, image.height + MARGIN), lines, "firebrick", font=font)
     whole.save(picture)
+
+
+def _font() -> Path:
+    """The font of matplotlib's pictures, found without its import, which takes long."""
+    found = find_spec("matplotlib")
+    assert found
+    assert found.origin
+    return Path(found.origin).parent / "mpl-data/fonts/ttf/DejaVuSans.ttf"
