@@ -34,10 +34,15 @@ class Transition(Generic[T]):
 
 @dataclass(frozen=True)
 class Score:
-    """A judge's verdict on the final state, with the reason in words."""
+    """A judge's verdict on the final state, with the reason in words.
+
+    `margin` says how far the goal is from being missed, or, negative, from being reached, in the unit of the
+    positions of the domain; None where a judge knows yes and no only.
+    """
 
     reached: bool
     reason: str
+    margin: float | None = None
 
 
 class World(Generic[T]):
