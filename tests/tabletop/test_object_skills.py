@@ -54,7 +54,7 @@ def carried_out(world, start, *actions):
     """The transitions of actions, and the words of the violations of the last."""
     world.reset(start)
     steps = [world.step(Action(*action)) for action in actions]
-    _, found = check(world.domain, steps[-1], len(steps) - 1)
+    _, found, _ = check(world.domain, steps[-1], len(steps) - 1)
     return steps, [violation.text for violation in found]
 
 

@@ -39,7 +39,7 @@ def told(domain, skill, *args):
     world = make_world(domain)
     try:
         world.reset(belief(domain, ("block", "red", *A)))
-        _, found = check(domain, world.step(Action(skill, args)), 0)
+        _, found, _ = check(domain, world.step(Action(skill, args)), 0)
     finally:
         world.close()
     return [(violation.constraint, violation.margin, violation.text) for violation in found]

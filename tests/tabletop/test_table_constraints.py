@@ -34,7 +34,7 @@ def carry_out(domain, world):
         world.reset(belief(domain, *things, ("bowl", "yellow", *BOWL), *extra))
         seen = []
         for step, (skill, *point) in enumerate(actions):
-            margins, violations = check(domain, world.step(Action(skill, tuple(point))), step)
+            margins, violations, _ = check(domain, world.step(Action(skill, tuple(point))), step)
             seen.append(margins)
             if violations:
                 return step, violations, seen

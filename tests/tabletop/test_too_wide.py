@@ -42,7 +42,7 @@ def told(body, at=AT, turn=()):
     world = make_world(domain)
     try:
         world.reset(scene)
-        _, found = check(domain, world.step(Action("pick", at)), 0)
+        _, found, _ = check(domain, world.step(Action("pick", at)), 0)
     finally:
         world.close()
     signatures = domain.signatures(scene)

@@ -5,11 +5,12 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from numbers import Real
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from proc3s.domain.domain import Domain
+from proc3s.domain.room import Room, room_at, tightest
 from proc3s.domain.world import Transition
 from proc3s.errors import Issue, SpecError, blame, not_wanted
 from proc3s.specs.domain import ConstraintSpec
@@ -20,11 +21,13 @@ from proc3s.wording import plain
 class Margin:
     """How far a constraint is from being violated, in its own unit; negative when violated.
 
-    `details` fill the placeholders of the constraint's sentence.
+    `details` fill the placeholders of the constraint's sentence. `says` tells in words what is left where it
+    is fulfilled, with the number: `the gripper passes object_4 at 2.3 mm`.
     """
 
     value: float
     details: Mapping[str, str] = field(default_factory=dict)
+    says: str = field(default="", repr=False)
 
 
 @dataclass(frozen=True)
@@ -44,15 +47,22 @@ class Violation:
         return {**dataclasses.asdict(self), "margin": margin}
 
 
-def check(
-    domain: Domain, transition: Transition[object], step: int
-) -> tuple[dict[str, float], list[Violation]]:
-    """All margins of a transition by constraint, and its violations in the order of the spec.
+class Checked(NamedTuple):
+    """What the constraints say of a step: margins by constraint, violations in their order, and the room."""
+
+    margins: dict[str, float]
+    violations: list[Violation]
+    room: Room | None
+
+
+def check(domain: Domain, transition: Transition[object], step: int) -> Checked:
+    """What the constraints of a domain say of a transition.
 
     A margin function returns a number, a `Margin`, a bool (True is fulfilled), or None where the
     constraint does not apply. Raises SpecError if it returns anything else, or NaN.
     """
     margins: dict[str, float] = {}
+    room: Room | None = None
     violations: list[Violation] = []
     for name, function in domain.margins.items():
         spec = domain.spec.constraints[name]
@@ -62,10 +72,13 @@ def check(
         if margin is None:
             continue
         margins[name] = margin.value
+        if not isinstance(value, bool | np.bool_):
+            skill = transition.action.skill
+            room = tightest(room, room_at(domain, name, skill, step, margin.value, margin.says))
         if margin.value < -spec.tolerance:
             text = sentence(spec, margin.details)
             violations.append(Violation(name, step, transition.action.skill, margin.value, text))
-    return margins, violations
+    return Checked(margins, violations, room)
 
 
 def _margin(name: str, value: object) -> Margin | None:
@@ -78,7 +91,7 @@ def _margin(name: str, value: object) -> Margin | None:
     if isinstance(value, Margin) and isinstance(value.value, Real) and isinstance(value.details, Mapping):
         number = float(value.value)
         if not math.isnan(number):
-            return Margin(number, value.details)
+            return Margin(number, value.details, str(value.says))
     raise not_wanted(f"constraint {name}", value, "a margin (a number, a Margin, a bool or None)")
 
 

@@ -6,17 +6,19 @@ from dataclasses import dataclass
 from typing import Any
 
 from proc3s.domain.margins import Violation
+from proc3s.domain.room import Room
 from proc3s.domain.state import State
 from proc3s.domain.values import Action, Plan
 
 
 @dataclass(frozen=True, eq=False)
 class Prefix:
-    """The first steps of a plan, carried out without a violation: where they led, and their margins."""
+    """The first steps of a plan, carried out without a violation: where they led, and what they left."""
 
     snapshot: Any
     state: State
     margins: tuple[Mapping[str, float], ...]
+    room: Room | None
 
 
 @dataclass(frozen=True)

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from proc3s.domain.margins import Violation, check
+from proc3s.domain.room import room_at_goal, tightest
 from proc3s.domain.state import State
 from proc3s.domain.values import Plan
 from proc3s.domain.world import Score, World
@@ -27,8 +28,12 @@ def rollout(world: World[Any], problem: Problem, plan: Plan, prefixes: Prefixes 
     if not problem.check_goal or not trial.accepted:
         return trial
     score, reason = judge(problem, final, plan)
-    if score is None or score.reached:
+    if score is None:
         return trial
+    if score.reached:
+        return dataclasses.replace(
+            trial, room=tightest(trial.room, room_at_goal(problem.domain, score.margin, reason))
+        )
     miss = Violation("goal", len(plan), "goal", -1.0, reason)
     return dataclasses.replace(trial, violations=(miss,))
 
@@ -50,10 +55,10 @@ def carry_out(
     if known is None:
         with within(problem.step_limit, "the reset of the world"):
             world.reset(problem.initial)
-        state, margins = problem.initial, []
+        state, margins, room = problem.initial, [], None
     else:
         world.resume(known.snapshot)
-        state, margins = known.state, list(known.margins)
+        state, margins, room = known.state, list(known.margins), known.room
     if stop and (failed := prefixes.failure(known, plan[len(margins)])):
         return Trial(plan, failed.violations, len(margins), failed.margins), failed.state
     violations: list[Violation] = []
@@ -63,8 +68,9 @@ def carry_out(
             transition = world.step(plan[step])
         state = transition.after
         visit(state)
-        step_margins, found = check(problem.domain, transition, step)
-        margins.append(step_margins)
+        left, found, here = check(problem.domain, transition, step)
+        margins.append(left)
+        room = tightest(room, here)
         violations += found
         if found:
             reached = min(reached, step)
@@ -72,10 +78,10 @@ def carry_out(
                 prefixes.keep_failure(known, plan[step], Failed(tuple(found), state, tuple(margins)))
                 break
         elif not violations:
-            longer = Prefix(world.snapshot, state, tuple(margins))
+            longer = Prefix(world.snapshot, state, tuple(margins), room)
             prefixes.keep(known, plan[step], longer)
             known = longer
-    return Trial(plan, tuple(violations), reached, tuple(margins)), state
+    return Trial(plan, tuple(violations), reached, tuple(margins), room=room), state
 
 
 def judge(problem: Problem, final: State, plan: Plan) -> tuple[Score | None, str]:

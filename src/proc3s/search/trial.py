@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from proc3s.domain.margins import Violation
+from proc3s.domain.room import Room
 from proc3s.domain.values import Plan
 
 
@@ -12,8 +13,9 @@ class Trial:
     """The verdict on one sample: a plan rolled out, or the error of the program that made none.
 
     `reached` counts the steps before the first violation. `margins` holds, per step that was carried
-    out, the margin of every constraint that applies, in its unit. `screen` names the screen that rejected
-    the plan. `rehearsals` counts those of the plan, `index` the samples of a problem from 0.
+    out, the margin of every constraint that applies, in its unit; `room` is the tightest of them and of the
+    goal, if it was looked at, of an accepted plan. `screen` names the screen that rejected the plan.
+    `rehearsals` counts those of the plan, `index` the samples of a problem from 0.
     """
 
     plan: Plan | None = None
@@ -25,6 +27,7 @@ class Trial:
     rehearsals: int = 0
     index: int = 0
     u: tuple[float, ...] = ()
+    room: Room | None = None
 
     @property
     def accepted(self) -> bool:

@@ -140,6 +140,8 @@ class SkillSpec(Target):
     """Parameters in order."""
     domains: tuple[str, ...] = ()
     """Domains that a plugin's skill attaches to by itself; `*` is every domain."""
+    error: Literal["picked", "placed"] = "placed"
+    """Which of the domain's `errors` uses up the margins of its steps."""
 
 
 class SamplerSpec(Target):
@@ -171,6 +173,9 @@ class ConstraintSpec(Target):
     """The rule as a sentence, for prompts that list the constraints."""
     tolerance: float = Field(0.0, ge=0)
     """A margin down to minus this still counts as fulfilled, in the constraint's unit."""
+    error: Literal["picked", "placed", "turn", "speed", "none"] | None = None
+    """Which of the domain's `errors` uses up its margin; `none`: it is fulfilled or not; default: that of
+    the skill."""
     example: dict[str, str] = Field(default_factory=dict)
     """Details of a violation as there may well be one, for prompts that are read before anything failed."""
     domains: tuple[str, ...] = ()
@@ -200,6 +205,22 @@ class ScreenSpec(Target):
     """It rejects just what the world rejects, with the same violation."""
     stateful: bool = False
     """It keeps something expensive (a simulator), so it runs where the world runs."""
+
+
+class ErrorsSpec(Spec):
+    """Errors to be expected where plans are carried out, in the units of the domain.
+
+    The defaults are those of a calibrated arm and camera, with positions in metres.
+    """
+
+    picked: float = Field(0.001, gt=0)
+    """Of where a thing that is picked stands."""
+    placed: float = Field(0.001, gt=0)
+    """Of where a thing is put down."""
+    turn: float = Field(math.radians(0.5), gt=0)
+    """Of how a thing is turned, rad."""
+    speed: float = Field(0.05, gt=0)
+    """Of the speed of a motion, as a share of it."""
 
 
 class TaskSpec(Spec):
@@ -271,6 +292,8 @@ class DomainSpec(Spec):
     """Constraints in the order in which they are checked."""
     use: tuple[Identifier, ...] = ()
     """Names of further skills, samplers and constraints that plugins bring."""
+    errors: ErrorsSpec = ErrorsSpec()
+    """Errors to be expected where plans are carried out: margins are measured by them."""
     screens: tuple[ScreenSpec, ...] = ()
     """Cheap tests before the world, in order."""
     tasks: Annotated[dict[TaskName, TaskSpec], Named]

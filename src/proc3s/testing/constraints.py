@@ -43,7 +43,7 @@ class ConstraintTests:
         for answer, plan in subject.plans(4):
             world.reset(answer.problem.initial)
             for step, action in enumerate(plan):
-                found, violations = check_step(subject.domain, world.step(action), step)
+                found, violations, _ = check_step(subject.domain, world.step(action), step)
                 mine = [v for v in violations if v.constraint == constraint_name]
                 assert bool(mine) == (found.get(constraint_name, 0.0) < -spec.tolerance)
                 assert all(np.isfinite(v.margin) and v.text.strip() for v in mine)

@@ -1,0 +1,61 @@
+"""Room: how many errors of the expected size a plan stands before a constraint or a judge would refuse it."""
+
+import math
+from dataclasses import dataclass
+
+from proc3s.domain.domain import Domain
+from proc3s.wording import plain
+
+GOAL = "goal"
+"""Stands for the judges of the task, where a constraint is named."""
+
+
+@dataclass(frozen=True)
+class Room:
+    """The tightest margin of a plan, and how many expected errors it is worth: `value`.
+
+    `constraint` at `step` (from 0) leaves the `margin`, in the unit of the constraint; the goal has no step.
+    `says` are the words of the constraint or judge, if it has some.
+    """
+
+    value: float
+    constraint: str
+    step: int | None
+    margin: float
+    says: str = ""
+
+    def __str__(self) -> str:
+        where = "at the goal" if self.step is None else f"at step {self.step}"
+        return f"{self.value:.1f}, {where}: {self.says or f'{self.constraint} by {plain(self.margin, 3)}'}"
+
+
+def room_at(
+    domain: Domain, constraint: str, skill: str, step: int, margin: float, says: str = ""
+) -> Room | None:
+    """What a constraint leaves at a step; None where it knows yes and no only."""
+    error = expected_error(domain, constraint, skill)
+    if error is None or not math.isfinite(margin):
+        return None
+    return Room(max(margin, 0.0) / error, constraint, step, margin, says)
+
+
+def room_at_goal(domain: Domain, margin: float | None, reason: str) -> Room | None:
+    """What the judges leave, whose margin the error of what is placed uses up."""
+    if margin is None or not math.isfinite(margin):
+        return None
+    return Room(max(margin, 0.0) / domain.spec.errors.placed, GOAL, None, margin, reason)
+
+
+def tightest(*rooms: Room | None) -> Room | None:
+    """The smallest, the first of equal ones; None where nothing limits."""
+    found = [room for room in rooms if room is not None]
+    return min(found, key=lambda room: room.value, default=None)
+
+
+def expected_error(domain: Domain, constraint: str, skill: str) -> float | None:
+    """The error that uses up the margin of a constraint at a step with a skill; None: it is yes or no."""
+    kind = domain.spec.constraints[constraint].error
+    if kind == "none":
+        return None
+    named: float = getattr(domain.spec.errors, kind or domain.spec.skills[skill].error)
+    return named
