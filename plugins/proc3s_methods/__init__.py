@@ -80,11 +80,14 @@ PRESETS = (
     ),
     PresetSpec(
         name="best",
-        summary="Everything on: portfolio search, the goal checked, graded feedback, repairs, restarts.",
+        summary="Everything on: portfolio search, the goal checked, rehearsals, plans with room, graded "
+        "feedback, repairs, restarts.",
         budget="paper",
         solver="portfolio",
         feedback="graded",
         check_goal=True,
+        improve=24,
+        rehearsals=2,
         screens="all",
         repairs=2,
         restart_after=2,

@@ -7,7 +7,7 @@ from proc3s import SolverSpec, hookimpl
 
 @hookimpl
 def register_solvers(register: Callable[[SolverSpec], None]) -> None:
-    """Uniform draws, annealed noise, backtracking, evolution, and a portfolio of them."""
+    """Uniform draws, annealed noise, backtracking, evolution, a portfolio of them, and one for room."""
     register(
         SolverSpec(
             name="rejection",
@@ -46,5 +46,14 @@ def register_solvers(register: Callable[[SolverSpec], None]) -> None:
             summary="Rejection, then backtracking and cma in turns that double.",
             target="proc3s_solvers.portfolio:Portfolio",
             options="proc3s_solvers.portfolio:PortfolioOptions",
+        )
+    )
+    register(
+        SolverSpec(
+            name="roomier",
+            summary="Moves an accepted sample to where its plan stands larger errors (CMA-ES on the room).",
+            target="proc3s_solvers.roomier:Roomier",
+            options="proc3s_solvers.roomier:RoomierOptions",
+            objective="room",
         )
     )

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
-from proc3s import Space, Trial
+from proc3s import FloatArray, Space, Trial
 from proc3s_solvers.batches import Batches, BatchSearch, furthest
 from proc3s_solvers.sampling import BELOW_ONE
 
@@ -45,7 +45,7 @@ class Cma(BatchSearch):
 
     def _run(self, start: Trial, population: int) -> Batches[Trial]:
         """One run of the strategy; returns the best uniform draw that was made meanwhile."""
-        strategy = self._strategy(start, population)
+        strategy = evolution(np.array(start.u), self._options.sigma, population, self._rng)
         share = self._options.uniform
         extra = math.ceil(population * share / (1 - share))
         best, idle, drawn = start.progress, 0, list[Trial]()
@@ -60,22 +60,24 @@ class Cma(BatchSearch):
             drawn = [furthest(drawn + trials[population:])]
         return drawn[0]
 
-    def _strategy(self, start: Trial, population: int) -> "CMAEvolutionStrategy":
-        import cma
 
-        # The strategy needs two dimensions; those beyond the cube change nothing.
-        mean = np.full(max(self._dim, 2), 0.5)
-        mean[: self._dim] = start.u
-        return cma.CMAEvolutionStrategy(
-            mean,
-            self._options.sigma,
-            {
-                "bounds": [0, 1],
-                "popsize": population,
-                "seed": np.nan,  # not the global generator of numpy
-                "randn": lambda *shape: self._rng.standard_normal(shape),
-                "verbose": -9,
-                "verb_log": 0,
-                "signals_filename": "",
-            },
-        )
+def evolution(
+    mean: FloatArray, sigma: float, population: int, rng: np.random.Generator
+) -> "CMAEvolutionStrategy":
+    """A strategy in the unit cube around a mean (dim,); in one dimension it has a second, to be left out."""
+    import cma
+
+    # The strategy needs two dimensions; those beyond the cube change nothing.
+    return cma.CMAEvolutionStrategy(
+        np.append(mean, np.full(max(2 - len(mean), 0), 0.5)),
+        sigma,
+        {
+            "bounds": [0, 1],
+            "popsize": population,
+            "seed": np.nan,  # not the global generator of numpy
+            "randn": lambda *shape: rng.standard_normal(shape),
+            "verbose": -9,
+            "verb_log": 0,
+            "signals_filename": "",
+        },
+    )

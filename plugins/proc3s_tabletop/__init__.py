@@ -41,6 +41,7 @@ def register_skills(register: Callable[[SkillSpec], None]) -> None:
             summary="Moves the open hand straight down to (x, y, z), closes it and lifts what is between the "
             "fingers.",
             params=_point("height of the point between the fingertips: the centre of the object"),
+            error="picked",
         )
     )
     register(
@@ -84,6 +85,7 @@ def register_constraints(register: Callable[[ConstraintSpec], None]) -> None:
             says="the arm cannot reach that point and the way straight down to it",
             rule="The arm reaches the point of every pick and place, and the way straight down to it.",
             tolerance=0.0,
+            error="none",
         )
     )
     register(

@@ -12,7 +12,7 @@ import numpy as np
 from proc3s import Action, Plan, SpecError, State, Transition, World
 from proc3s.errors import Issue
 from proc3s.wording import count
-from proc3s_tabletop.actions.disturbances import OFF, Disturbance
+from proc3s_tabletop.actions.disturbances import Disturbance
 from proc3s_tabletop.actions.execution import Execution
 from proc3s_tabletop.actions.misplacement import Misplacement
 from proc3s_tabletop.actions.reference import Reference
@@ -49,9 +49,9 @@ class TabletopWorld(World[Telemetry]):
     """Picks and places among the `objects` of a state: name -> something with `category` and `pose`.
 
     `bodies` says which body a category has (see `body_specs`); block and bowl where it is not given. `speed`
-    scales that of arm and fingers; disturbed, things come down up to `placement_error` metres off along x and
-    along y. `engine` names the physics engine. It starts with the first state, and again when a state has
-    other objects.
+    scales that of arm and fingers. Disturbed, it makes the `errors` of the domain, but for `placement_error`
+    (m) where that is given. `engine` names the physics engine. It starts with the first state, and again when
+    a state has other objects.
     """
 
     options = TabletopOptions
@@ -62,12 +62,14 @@ class TabletopWorld(World[Telemetry]):
         domain: "Domain",
         bodies: Mapping[str, Any] | None = None,
         speed: float = 1.0,
-        placement_error: float = OFF,
+        placement_error: float | None = None,
         engine: str | None = None,
     ) -> None:
         super().__init__(domain)
         self.engine = engine
-        self.speed, self.placement_error = speed, placement_error
+        self.speed = speed
+        changed = {} if placement_error is None else {"placed": placement_error}
+        self.errors = domain.spec.errors.model_copy(update=changed)
         self.categories = bodies_of(bodies)
         self._bodies: dict[str, Body] = {}
         self._table: Table | None = None
@@ -76,9 +78,9 @@ class TabletopWorld(World[Telemetry]):
         self._misplacement: Misplacement | None = None
 
     def disturb(self, rng: np.random.Generator | None, corner: int | None = None) -> None:
-        """From the next reset on, arm and fingers are a little faster or slower, and what is placed comes
-        down a little off."""
-        self._disturbance = Disturbance(rng, corner, self.placement_error) if rng else None
+        """From the next reset on, arm and fingers are a little faster or slower, objects stand a little off
+        from where they are believed to be, and so they come down."""
+        self._disturbance = Disturbance(rng, corner, self.errors) if rng else None
         self._set_speed()
 
     def misplace(self, rng: np.random.Generator | None, error: float = 0.0) -> None:
@@ -93,12 +95,10 @@ class TabletopWorld(World[Telemetry]):
 
     def placed(self, x: float, y: float, z: float) -> tuple[float, float, float, float]:
         """Where something is placed that is to be placed at a point, and its turn about z, rad."""
-        if self._disturbance:
-            x, y, z = self._disturbance.off(x, y, z)
-        if not self._misplacement:
-            return x, y, z, 0.0
-        offset = self._misplacement.draw()
-        return x + offset.x, y + offset.y, z, offset.turn
+        made = [self._disturbance.placed()] if self._disturbance else []
+        made += [self._misplacement.draw()] if self._misplacement else []
+        dx, dy, turn = (sum(numbers) for numbers in zip((0.0, 0.0, 0.0), *made, strict=True))
+        return x + dx, y + dy, z, turn
 
     def step(self, action: Action) -> Transition[Telemetry]:
         """Carry out one ground action, which may be one pick, or one place, at most.
@@ -146,8 +146,8 @@ class TabletopWorld(World[Telemetry]):
         if self._table is None or bodies != self._bodies:
             self.close()
             self._table, self._bodies = self.make_table(bodies, frames), bodies
-        if self._misplacement:
-            self._table.put(self._misplacement.stands(frames), believed=frames)
+        if off := self._misplacement or self._disturbance:
+            self._table.put(off.stands(frames), believed=frames)
         else:
             self._table.put(frames)
         self._set_speed()

@@ -7,10 +7,11 @@ import pytest
 from blocks_domain import belief, blocks_domain
 
 from proc3s import Action
-from proc3s_tabletop.actions.disturbances import OFF, SPEED, Disturbance
+from proc3s_tabletop.actions.disturbances import Disturbance
 from proc3s_tabletop.world import ExecutionWorld, ReferenceWorld
 
 DOMAIN = blocks_domain()
+ERRORS = DOMAIN.spec.errors
 SCENE = belief(DOMAIN, ("block", "red", -0.15, -0.5, 0.02), ("block", "blue", 0.15, -0.5, 0.02))
 PLAN = [Action("pick", (-0.15, -0.5, 0.02)), Action("place", (0.0, -0.4, 0.02))]
 
@@ -56,7 +57,7 @@ def test_what_is_placed_ends_no_further_off_than_the_error(world):
     goal = _spot(outcome(world))
     for seed in range(3):
         off = np.abs(_spot(outcome(world, np.random.default_rng(seed))) - goal)
-        assert off.max() < OFF + 5e-4
+        assert off.max() < ERRORS.picked + ERRORS.placed + 5e-4
 
 
 def test_a_domain_says_how_far_off_things_come_down():
@@ -66,7 +67,8 @@ def test_a_domain_says_how_far_off_things_come_down():
         off = np.abs(_spot(outcome(world, np.random.default_rng(0), corner=0)) - exact)
     finally:
         world.close()
-    assert off == pytest.approx(0.004, abs=5e-4)
+    # Where it stood was off, too, by up to a millimetre either way.
+    assert off == pytest.approx(0.004, abs=ERRORS.picked + 5e-4)
 
 
 def _spot(state):
@@ -76,19 +78,31 @@ def _spot(state):
 
 def test_errors_stay_within_their_limits():
     drawn = [Disturbance(np.random.default_rng(seed)) for seed in range(50)]
-    assert all(abs(one.speed - 1) <= SPEED for one in drawn)
-    points = np.array([one.off(0.1, 0.2, 0.3) for one in drawn])
-    assert np.abs(points - [0.1, 0.2, 0.3]).max() <= OFF
+    assert all(abs(one.speed - 1) <= ERRORS.speed for one in drawn)
+    offsets = np.array([one.placed() for one in drawn])
+    assert (np.abs(offsets) <= [ERRORS.placed, ERRORS.placed, ERRORS.turn]).all()
     assert len({one.speed for one in drawn}) == 50
 
 
 def test_corners_are_extreme_and_come_in_opposite_pairs():
     for seed in range(10):
         even, odd = (Disturbance(np.random.default_rng(seed), corner) for corner in (2, 3))
-        assert {even.speed, odd.speed} == {1 - SPEED, 1 + SPEED}
-        here, there = (np.array(one.off(0.0, 0.0, 0.3)) for one in (even, odd))
-        assert np.abs(here[:2]).tolist() == [OFF, OFF]
-        assert here + there == pytest.approx([0.0, 0.0, 0.6])
+        assert {even.speed, odd.speed} == {1 - ERRORS.speed, 1 + ERRORS.speed}
+        here, there = (np.array(one.placed()) for one in (even, odd))
+        assert np.abs(here).tolist() == [ERRORS.placed, ERRORS.placed, ERRORS.turn]
+        assert here + there == pytest.approx([0.0, 0.0, 0.0])
+
+
+def test_objects_stand_off_from_where_they_are_believed_to_be(world):
+    world.disturb(np.random.default_rng(0), corner=0)
+    try:
+        world.reset(SCENE)
+        for name, believed in SCENE.objects.items():
+            true = world.observe().objects[name].pose
+            off = [true.x - believed.pose.x, true.y - believed.pose.y]
+            assert np.abs(off) == pytest.approx(ERRORS.picked)
+    finally:
+        world.disturb(None)
 
 
 @pytest.mark.slow

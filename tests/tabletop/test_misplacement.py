@@ -171,7 +171,8 @@ def test_placements_are_off_by_disturbances_or_misplacements():
     world = ReferenceWorld(DOMAIN)
     world.disturb(np.random.default_rng(0), corner=0)
     x, y, _, turn = world.placed(0.0, 0.0, 0.1)
-    assert (abs(x), abs(y), turn) == (world.placement_error, world.placement_error, 0.0)
+    errors = world.errors
+    assert (abs(x), abs(y), abs(turn)) == (errors.placed, errors.placed, errors.turn)
     world.disturb(None)
     world.misplace(np.random.default_rng(0), ERROR)
     x, y, z, turn = world.placed(0.0, 0.0, 0.1)

@@ -1,26 +1,38 @@
-"""What differs each time a real arm does the same: its speed, and where exactly it goes."""
+"""What differs each time a real arm does the same: its speed, where things stand, and where it puts them."""
+
+from collections.abc import Mapping
 
 import numpy as np
 
-SPEED = 0.05
-"""Arm and fingers are up to this share faster or slower."""
-OFF = 0.0005
-"""What is placed comes down up to this far off along x and along y, m, unless a domain says otherwise."""
+from proc3s.specs.domain import ErrorsSpec
+from proc3s_tabletop.actions.misplacement import Offset, off
+from proc3s_tabletop.robot.frames import Frame
 
 
 class Disturbance:
-    """One time that a plan is carried out: a speed, and errors of what is placed, drawn uniformly.
+    """One time that a plan is carried out: errors up to those that are to be expected, drawn uniformly.
 
     In a `corner` all errors are as large as they get; those of an even corner are opposite to the next one's.
     """
 
-    def __init__(self, rng: np.random.Generator, corner: int | None = None, off: float = OFF) -> None:
-        self._rng, self._corner, self._off = rng, corner, off
-        self.speed = 1 + SPEED * self._error()
+    def __init__(
+        self, rng: np.random.Generator, corner: int | None = None, errors: ErrorsSpec | None = None
+    ) -> None:
+        self._rng, self._corner = rng, corner
+        self._errors = errors or ErrorsSpec()
+        self.speed = 1 + self._errors.speed * self._error()
+        """Of arm and fingers, 1 is as always."""
 
-    def off(self, x: float, y: float, z: float) -> tuple[float, float, float]:
-        """A point near another, metres, a new one at each call."""
-        return x + self._off * self._error(), y + self._off * self._error(), z
+    def placed(self) -> Offset:
+        """How far off something comes down, a new offset at each call."""
+        return self._offset(self._errors.placed)
+
+    def stands(self, frames: Mapping[str, Frame]) -> dict[str, Frame]:
+        """Where objects stand that are believed to stand in these frames, each off by its own draw."""
+        return {name: off(frames[name], self._offset(self._errors.picked)) for name in sorted(frames)}
+
+    def _offset(self, most: float) -> Offset:
+        return Offset(most * self._error(), most * self._error(), self._errors.turn * self._error())
 
     def _error(self) -> float:
         """Between -1 and 1."""

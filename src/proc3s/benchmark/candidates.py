@@ -7,11 +7,13 @@ from pathlib import Path
 from proc3s.benchmark.cases import Case
 from proc3s.errors import UsageError, did_you_mean
 from proc3s.planning.grounding import open_sketch
+from proc3s.planning.improving import improved
 from proc3s.planning.known_plan import KnownPlan, plan_of
 from proc3s.planning.options import DEFAULT_PRESET, RunOptions
 from proc3s.planning.parts import Setup
 from proc3s.planning.setup import make_setup
 from proc3s.plugins.registry import Registry
+from proc3s.search.clock import Deadline
 from proc3s.search.evaluator import Evaluator
 from proc3s.search.start import start_search
 from proc3s.search.trial import Trial
@@ -26,6 +28,8 @@ class Candidate:
     known: KnownPlan | None
     samples: int = 0
     rehearsals: int = 0
+    room: float | None = None
+    """In expected errors; None where nothing limits the plan, or nobody knows."""
     run: Path | None = None
 
     @property
@@ -39,20 +43,24 @@ class Candidate:
         return self.task.partition("/")[0], self.task, self.case
 
 
-def searched(registry: Registry, case: Case, seed: int, robust: int, samples: int | None) -> Candidate:
-    """Search a plan for a case and a seed that passes so many rehearsals."""
-    given = {"task": case.task, "seed": seed, "robust": robust, "samples": samples}
+def searched(
+    registry: Registry, case: Case, seed: int, robust: int, samples: int | None, improve: int = 0
+) -> Candidate:
+    """Search a plan for a case and a seed that passes so many rehearsals, and improve it so much."""
+    given = {"task": case.task, "seed": seed, "robust": robust, "samples": samples, "improve": improve}
     options = RunOptions.model_validate({**given, "domain_options": case.scene, "world_options": case.world})
     setup = make_setup(registry, options, goal_needed=False)
     try:
-        evaluator, solution = _search(setup, case.program)
+        evaluator, solution, more = _search(setup, case.program)
     finally:
         setup.executor.close()
     known = KnownPlan(options, solution.plan) if solution and solution.plan is not None else None
-    return Candidate(case.label, options, known, evaluator.samples, evaluator.rehearsals)
+    room = solution.room.value if solution and solution.room else None
+    return Candidate(case.label, options, known, evaluator.samples, evaluator.rehearsals + more, room)
 
 
-def _search(setup: Setup, program: str) -> tuple[Evaluator, Trial | None]:
+def _search(setup: Setup, program: str) -> tuple[Evaluator, Trial | None, int]:
+    """The evaluator of a search, what it found, improved, and the rehearsals of that."""
     problem = setup.problem
     with open_sketch(setup, program) as opened:
         evaluator = Evaluator(problem, opened.sketch, setup.executor)
@@ -60,7 +68,11 @@ def _search(setup: Setup, program: str) -> tuple[Evaluator, Trial | None]:
         search.advance(problem.samples)
         if search.broken_off is not None:
             raise search.broken_off
-        return evaluator, search.solution
+        if search.solution is None:
+            return evaluator, None, 0
+        endless = Deadline("", None)
+        better = improved(setup, opened.sketch, search.solution, (0, 0), lambda trial: None, endless)
+        return evaluator, better.best if better else search.solution, better.rehearsals if better else 0
 
 
 def saved(runs: Sequence[Path], wanted: Sequence[str], world: Mapping[str, str]) -> Iterator[Candidate]:
@@ -98,4 +110,5 @@ def _saved(run: Path, world: Mapping[str, str]) -> Candidate | None:
         return None
     options = options.model_copy(update={"world_options": {**options.world_options, **world}})
     name = options.method if options.preset == DEFAULT_PRESET else f"{options.method}.{options.preset}"
-    return Candidate(f"{options.task}.{name}", options, replace(known, options=options), run=run)
+    known = replace(known, options=options)
+    return Candidate(f"{options.task}.{name}", options, known, room=known.room, run=run)

@@ -22,7 +22,8 @@ ENGINE = "execution"
 
 @dataclass(frozen=True)
 class FieldTest:
-    """What became of the plan found for a case and a seed, with so many rehearsals before it was accepted.
+    """What became of the plan found for a case and a seed, with so many rehearsals before it was accepted,
+    and so many samples to improve it; `room` is what it has then, in expected errors.
 
     `satisfied` counts the outcomes, of `times`, with which the judge was satisfied; none without a plan.
     `run` is the folder of the run that the plan is from, None for one that was searched now. `engine` is
@@ -32,10 +33,12 @@ class FieldTest:
     case: str
     run: str | None
     robust: int
+    improve: int
     seed: int
     solved: bool
     samples: int
     rehearsals: int
+    room: float | None
     engine: str | None
     error_mm: float | None
     times: int
@@ -76,11 +79,13 @@ def field_tests(registry: Registry, candidate: Candidate, conditions: Conditions
         yield FieldTest(
             case=candidate.case,
             run=str(candidate.run) if candidate.run else None,
-            robust=candidate.options.robust,
+            robust=candidate.options.robust or 0,
+            improve=candidate.options.improve or 0,
             seed=candidate.options.seed,
             solved=candidate.known is not None,
             samples=candidate.samples,
             rehearsals=candidate.rehearsals,
+            room=candidate.room,
             engine=_used(registry, candidate, engine),
             error_mm=error_mm,
             times=times,

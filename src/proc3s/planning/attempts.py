@@ -7,6 +7,7 @@ from typing import Any
 from proc3s.domain.values import Plan
 from proc3s.errors import Proc3sError
 from proc3s.feedback.report import Diagnosis
+from proc3s.planning.improving import Improved
 from proc3s.planning.proposals import Proposal
 from proc3s.prompts.conversation import Exchange
 from proc3s.search.trial import Trial
@@ -20,6 +21,8 @@ class Attempt:
     round: int = 0
     candidate: int = 0
     solution: Trial | None = None
+    """The accepted trial, improved if that was wanted."""
+    improved: Improved | None = None
     fallback: Plan | None = None
     nearest: Mapping[str, Any] | None = None
     """The plan that came furthest and what it violates, as JSON."""

@@ -30,6 +30,8 @@ class KnownPlan:
     accepted: bool = True
     """Whether the world accepted it; False for a fallback."""
     begun: Mapping[str, Any] = field(default_factory=dict)
+    room: float | None = None
+    """In expected errors, as the run had it; None where nothing limits the plan, or nobody knows."""
 
     def problem(self, registry: Registry, world_options: Mapping[str, str] | None = None) -> Problem:
         """The problem that it is for, in the scene of its run; options of the world replace those of the run.
@@ -64,4 +66,5 @@ def plan_of(run: Path, **changes: Any) -> KnownPlan:
     if not executed:
         raise UsageError(f"{run} has no plan to carry out; `proc3s explain {run}` says why")
     plan = tuple(Action.from_json(action) for action in executed[-1]["plan"])
-    return KnownPlan(options, plan, executed[-1]["executed"] == "solution", started(run))
+    room = (executed[-1].get("room") or {}).get("value")
+    return KnownPlan(options, plan, executed[-1]["executed"] == "solution", started(run), room)

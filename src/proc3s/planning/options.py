@@ -72,8 +72,12 @@ class RunOptions(Spec):
     """test every plan in the world, even hopeless ones"""
     audit: Annotated[int, _SEARCH] = Field(0, ge=0)
     """put N rejects of the screens to the world after all"""
-    robust: Annotated[int, _SEARCH] = Field(0, ge=0)
+    robust: Annotated[int | None, _SEARCH] = Field(None, ge=0)
     """accept only plans that also pass N rehearsals with small errors"""
+    improve: Annotated[int | None, _SEARCH] = Field(None, ge=0)
+    """after a plan is found, try N samples around it for more room (default: that of the preset)"""
+    improver: Annotated[str | None, _SEARCH] = None
+    """the solver that asks for them (default: roomier)"""
     seed: Annotated[int, _WORLD] = Field(0, ge=0)
     """scene and random draws"""
     goal: Annotated[str | None, replace(_WORLD, metavar="TEXT")] = None

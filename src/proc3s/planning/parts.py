@@ -26,7 +26,8 @@ class Pictures:
 class Setup:
     """Everything a run is made of, but for the one who proposes programs.
 
-    `locked` is False only if the user asked for programs to run outside the kernel's lock.
+    `improve` samples go into more room once a plan is found, and `rehearsals` into which of the roomiest to
+    take. `locked` is False only if the user asked for programs to run outside the kernel's lock.
     """
 
     problem: Problem
@@ -34,9 +35,12 @@ class Setup:
     preset: PresetSpec
     solver: str
     make_solver: MakeSolver
+    make_improver: MakeSolver
     executor: Executor
     limits: Limits = field(default_factory=Limits)
     clock_limits: ClockLimits = field(default_factory=ClockLimits)
     locked: bool = True
     audit: int = 0
+    improve: int = 0
+    rehearsals: int = 0
     pictures: Pictures | None = None

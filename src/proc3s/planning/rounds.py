@@ -13,6 +13,7 @@ from proc3s.domain.values import Plan
 from proc3s.feedback.diagnosis import diagnose
 from proc3s.planning.attempts import Attempt, Round
 from proc3s.planning.grounding import Opened, ReproducibilityCheck, open_sketch
+from proc3s.planning.improving import Improved, improved
 from proc3s.planning.parts import Setup
 from proc3s.planning.proposals import Proposal
 from proc3s.runs.events import (
@@ -20,6 +21,7 @@ from proc3s.runs.events import (
     Audited,
     BatchEvaluated,
     Emit,
+    PlanImproved,
     ProgramExtracted,
     SamplerCall,
     SketchLoaded,
@@ -27,7 +29,7 @@ from proc3s.runs.events import (
 from proc3s.sandbox.box import prewarm
 from proc3s.sandbox.errors import SketchError
 from proc3s.search.clock import Deadline
-from proc3s.search.evaluator import Evaluator
+from proc3s.search.evaluator import Confirm, Evaluator
 from proc3s.search.race import race
 from proc3s.search.screen_audit import Audit
 from proc3s.search.search import Search
@@ -42,7 +44,9 @@ class Entrant:
     setup: Setup
     opened: Opened
     evaluator: Evaluator
+    confirm: Confirm
     search: Search
+    deadline: Deadline
     audit: Audit | None
     review: Audit
 
@@ -114,9 +118,8 @@ def _search(
 ) -> Entrant:
     audit = Audit(setup.audit, setup.problem.seed) if setup.audit else None
     review = Audit(REVIEWED, setup.problem.seed)
-    evaluator = Evaluator(
-        setup.problem, opened.sketch, setup.executor, ReproducibilityCheck(setup, source), audit, review
-    )
+    confirm = ReproducibilityCheck(setup, source)
+    evaluator = Evaluator(setup.problem, opened.sketch, setup.executor, confirm, audit, review)
     key = (proposal.round, proposal.candidate) if proposal.candidate else (proposal.round,)
     columns = partial(BatchEvaluated.from_trials, proposal.round, proposal.candidate)
     search = start_search(
@@ -127,11 +130,12 @@ def _search(
         lambda trials: emit(columns(trials)),
         deadline.check,
     )
-    return Entrant(setup, opened, evaluator, search, audit, review)
+    return Entrant(setup, opened, evaluator, confirm, search, deadline, audit, review)
 
 
 def _attempt(entrant: Entrant, proposal: Proposal, emit: Emit) -> Attempt:
     setup, search = entrant.setup, entrant.search
+    better = _improved(entrant, proposal, emit)
     if entrant.audit and not search.broken_off:
         found = entrant.audit.check(setup.problem, setup.executor)
         emit(Audited.of(proposal.round, proposal.candidate, found))
@@ -142,15 +146,28 @@ def _attempt(entrant: Entrant, proposal: Proposal, emit: Emit) -> Attempt:
         diagnosis=diagnose(search.trials, search.halted, setup.problem, search.space, reviewed, search.alike),
         round=proposal.round,
         candidate=proposal.candidate,
-        solution=search.solution,
+        solution=better.best if better else search.solution,
+        improved=better,
         fallback=entrant.opened.plan if setup.method.fallback == "last_plan" else None,
         nearest=_nearest(entrant),
-        broken_off=search.broken_off,
+        broken_off=search.broken_off or (better.broken_off if better else None),
         samples=entrant.evaluator.samples,
         evaluations=entrant.evaluator.evaluations,
         rehearsals=entrant.evaluator.rehearsals,
         rejected_by=dict(entrant.evaluator.rejected_by),
     )
+
+
+def _improved(entrant: Entrant, proposal: Proposal, emit: Emit) -> Improved | None:
+    """The accepted plan of a search with more room, if there is one and that was wanted."""
+    solution, setup = entrant.search.solution, entrant.setup
+    if solution is None:
+        return None
+    key, confirm = (proposal.round, proposal.candidate), entrant.confirm
+    better = improved(setup, entrant.opened.sketch, solution, key, confirm, entrant.deadline)
+    if better:
+        emit(PlanImproved(round=key[0], candidate=key[1], **better.counts))
+    return better
 
 
 def _nearest(entrant: Entrant) -> Mapping[str, Any] | None:

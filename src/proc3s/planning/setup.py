@@ -2,7 +2,7 @@
 
 import dataclasses
 import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -26,6 +26,7 @@ from proc3s.sandbox.errors import SketchError
 from proc3s.search.executor import Executor
 from proc3s.search.problem import Problem
 from proc3s.search.solver import Solver
+from proc3s.search.start import MakeSolver
 from proc3s.specs.given import importable
 from proc3s.specs.yaml_files import validate
 from proc3s.specs.yaml_reader import scalar
@@ -67,7 +68,7 @@ def make_problem(registry: Registry, options: RunOptions, goal_needed: bool = Tr
         seed=options.seed,
         samples=options.samples or budget[preset.budget],
         check_goal=preset.check_goal if options.check_goal is None else options.check_goal,
-        robust=options.robust,
+        robust=options.robust or 0,
         screens="none" if options.no_screens else preset.screens,
     )
 
@@ -118,6 +119,26 @@ def make_executor(registry: Registry, name: str, jobs: int) -> Executor:
     return executor
 
 
+def solver_maker(
+    registry: Registry, name: str, objective: str, options: Mapping[str, str] | None = None
+) -> MakeSolver:
+    """Makes a solver of that name. Raises UsageError if it does not look for what is wanted."""
+    spec = registry.get(specs.SolverSpec, name)
+    if spec.objective != objective:
+        flag = "--solver" if objective == "progress" else "--improver"
+        known = [each.name for each in registry.all(specs.SolverSpec).values() if each.objective == objective]
+        raise UsageError(f"{flag}: {name} looks for {spec.objective}; take one of {', '.join(known)}")
+    given = part_options(spec, options or {})
+    make = spec.load()
+
+    def make_solver(space: Space, budget: int, rng: np.random.Generator) -> Solver:
+        with blame(f"solver {name}", SketchError):
+            made: Solver = make(space, budget, rng, given)
+        return made
+
+    return make_solver
+
+
 def make_setup(
     registry: Registry, options: RunOptions, problem: Problem | None = None, goal_needed: bool = True
 ) -> Setup:
@@ -126,21 +147,16 @@ def make_setup(
     method = select_method(registry, options)
     preset = registry.get(specs.PresetSpec, options.preset)
     name = options.solver or method.solver or preset.solver or DEFAULT_SOLVER
-    solver = registry.get(specs.SolverSpec, name)
-    solver_options = part_options(solver, options.solver_options)
-    make = solver.load()
+    make_solver = solver_maker(registry, name, "progress", options.solver_options)
+    make_improver = solver_maker(registry, options.improver or preset.improver, "room")
     executor = make_executor(registry, options.executor, options.jobs)
     problem.domain.require(problem.task)
     if options.jobs > 1:
         _refuse_unimportable(problem)
     limits, clock_limits = make_limits(options.limits)
-    if problem.robust and problem.domain.spec.world.load().disturb is World.disturb:
+    disturbed = problem.domain.spec.world.load().disturb is not World.disturb
+    if problem.robust and not disturbed:
         raise UsageError(f"--robust: nothing disturbs the world of {problem.domain.spec.name}")
-
-    def make_solver(space: Space, budget: int, rng: np.random.Generator) -> Solver:
-        with blame(f"solver {name}", SketchError):
-            made: Solver = make(space, budget, rng, solver_options)
-        return made
 
     return Setup(
         problem=dataclasses.replace(problem, step_limit=clock_limits.step),
@@ -148,11 +164,14 @@ def make_setup(
         preset=preset,
         solver=name,
         make_solver=make_solver,
+        make_improver=make_improver,
         executor=executor,
         limits=limits,
         clock_limits=clock_limits,
         locked=not options.unsafe_exec,
         audit=options.audit,
+        improve=preset.improve if options.improve is None else options.improve,
+        rehearsals=problem.robust or (preset.rehearsals if disturbed else 0),
     )
 
 

@@ -1,6 +1,7 @@
 """The summary of a run: one flat document for people and programs."""
 
 from collections import Counter
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any, Literal
 
@@ -60,6 +61,12 @@ class Summary(BaseModel):
     """Of plans that the world had accepted, under disturbances (`--robust`)."""
     rejected_by: dict[str, int] = {}
     """Samples that each screen rejected."""
+    room: dict[str, Any] | None = None
+    """What is tightest in the accepted plan: `value` in errors that are to be expected, `margin`,
+    `constraint`, `step` (null for the goal) and `says`; null where nothing limits it."""
+    improved: dict[str, float | None] | None = None
+    """What was tried around the first accepted plan for more room: `samples`, `room_before` and `room_after`,
+    in errors that are to be expected; null where nothing was tried."""
     seconds: dict[str, float] = {}
     """Wall seconds by stage."""
     cpu_seconds: dict[str, float] = {}
@@ -116,6 +123,8 @@ def summarize(
         evaluations=sum(attempt.evaluations for attempt in outcome.attempts),
         rehearsals=sum(attempt.rehearsals for attempt in outcome.attempts),
         rejected_by=_rejected_by(outcome),
+        room=asdict(execution.room) if execution and execution.room else None,
+        improved=_improved(outcome),
         seconds=_seconds(outcome.clock.wall, wall),
         cpu_seconds=_seconds(outcome.clock.cpu, cpu),
         plan=[action.to_json() for action in plan] if plan else None,
@@ -156,6 +165,11 @@ def _rejected_by(outcome: Outcome) -> dict[str, int]:
     for attempt in outcome.attempts:
         total.update(attempt.rejected_by)
     return dict(total)
+
+
+def _improved(outcome: Outcome) -> dict[str, float | None] | None:
+    better = next((attempt.improved for attempt in outcome.attempts if attempt.improved), None)
+    return better.counts if better else None
 
 
 def _seconds(stages: dict[str, float], total: float) -> dict[str, float]:

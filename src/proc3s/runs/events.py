@@ -208,6 +208,18 @@ class Audited(OfProgram):
         return cls(round=round_, candidate=candidate, checked=findings.checked, wrong=wrong)
 
 
+class PlanImproved(OfProgram):
+    """Samples around an accepted plan were tried for one with more room; null where nothing limits it."""
+
+    event: Literal["plan_improved"] = "plan_improved"
+    samples: int
+    """How many were tried, apart from those of the search."""
+    room_before: float | None
+    """Of the plan that was accepted first, in errors that are to be expected."""
+    room_after: float | None
+    """Of the plan that is carried out."""
+
+
 class AttemptEnded(OfProgram):
     """What one program came to; enough to go on with the run in another process."""
 
@@ -256,6 +268,9 @@ class PlanExecuted(OfProgram):
     """The judge's reason."""
     goal_expected: bool | None = None
     """The judge's verdict on the state that the world which accepted the plan ends in."""
+    room: dict[str, Any] | None = None
+    """What is tightest in a plan without a violation: `value` in errors that are to be expected, `margin`,
+    `constraint`, `step` (null for the goal) and `says`; null where nothing limits it."""
 
 
 class Unwritten(Event):

@@ -74,7 +74,7 @@ class Search:
 
     def _step(self, limit: int) -> None:
         with blame("solver", SketchError):
-            u = np.empty((1, 0)) if self.space.dim == 0 else _points(self._solver.ask(limit), self.space.dim)
+            u = np.empty((1, 0)) if self.space.dim == 0 else points(self._solver.ask(limit), self.space.dim)
         self._exhausted = self.space.dim == 0 or not len(u)
         begun = len(self.trials)
         if len(u):
@@ -102,7 +102,7 @@ class Search:
             self.broken_off = Interrupted("interrupted")
 
 
-def _points(asked: object, dim: int) -> FloatArray:
+def points(asked: object, dim: int) -> FloatArray:
     """What a solver asks for as points (k, dim) of the unit cube. Raises SpecError if it is none."""
     u = np.asarray(asked, float)
     if u.ndim != 2 or (len(u) and u.shape[1] != dim):

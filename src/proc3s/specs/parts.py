@@ -52,6 +52,13 @@ class PresetSpec(Spec):
     """Solver where neither method nor command line names one."""
     check_goal: bool = False
     """Whether a plan must satisfy the judge to be accepted."""
+    improve: int = Field(0, ge=0)
+    """Samples around an accepted plan, for one with more room."""
+    rehearsals: int = Field(0, ge=0)
+    """Rehearsals with small errors, where the world can make some: of the roomiest plans the first is taken
+    that passes them."""
+    improver: str = "roomier"
+    """The solver that asks for them."""
     screens: Literal["all", "exact", "none"] = "exact"
     """Which screens may reject plans."""
     repairs: int = Field(0, ge=0)
@@ -72,6 +79,9 @@ class SolverSpec(Target):
     """One sentence for `proc3s list`."""
     options: ImportString | None = None
     """pydantic model of its options (`-S key=value`)."""
+    objective: Literal["progress", "room"] = "progress"
+    """`progress`: it looks for an accepted plan; `room`: it begins from one (the first trial that it is told)
+    and looks for more room, where `--improver` names it."""
 
 
 class LLMSpec(Target):

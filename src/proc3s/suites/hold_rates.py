@@ -18,10 +18,11 @@ ALL = "all"
 
 @dataclass(frozen=True)
 class HoldRate:
-    """The field tests of a program (or all), with so many rehearsals, in an engine, with an error."""
+    """The field tests of a program (or all), rehearsed and improved so much, in an engine, with an error."""
 
     program: str
     rehearsals: int
+    improve: int
     engine: str | None
     error_mm: float | None
     tests: tuple[FieldTest, ...]
@@ -53,15 +54,16 @@ class HoldRate:
 
 
 def hold_rates(done: Sequence[FieldTest]) -> list[HoldRate]:
-    """One for every program, number of rehearsals, engine and error, and one for all programs together."""
+    """One for every program, way of searching, engine and error, and one for all programs together."""
     of_programs = _grouped((test.case, test) for test in done)
     return [*of_programs, *_grouped((ALL, test) for test in done)]
 
 
 def _grouped(named: Iterable[tuple[str, FieldTest]]) -> list[HoldRate]:
-    groups: dict[tuple[str, int, str | None, float | None], list[FieldTest]] = {}
+    groups: dict[tuple[str, int, int, str | None, float | None], list[FieldTest]] = {}
     for name, test in named:
-        groups.setdefault((name, test.robust, test.engine, test.error_mm), []).append(test)
+        key = (name, test.robust, test.improve, test.engine, test.error_mm)
+        groups.setdefault(key, []).append(test)
     return [HoldRate(*key, tuple(tests)) for key, tests in groups.items()]
 
 
@@ -91,7 +93,8 @@ def chart(rates: Sequence[HoldRate]) -> str | None:
 
 def _label(one: HoldRate) -> str:
     rehearsed = count(one.rehearsals, "rehearsal") if one.rehearsals else "no rehearsals"
-    parts = [one.engine, rehearsed, count(one.plans, "plan")]
+    improved = f"{count(one.improve, 'sample')} for room" if one.improve else None
+    parts = [one.engine, rehearsed, improved, count(one.plans, "plan")]
     return ", ".join(part for part in parts if part)
 
 

@@ -132,7 +132,7 @@ def execution(
             rich_help_panel="Episodes",
         ),
     ] = None,
-    given: Annotated[a.Given, a.fields("samples", "robust", "world_options", "plugins")],
+    given: Annotated[a.Given, a.fields("samples", "robust", "improve", "world_options", "plugins")],
     engines: Annotated[
         Many,
         typer.Option(
@@ -166,9 +166,9 @@ def execution(
 ) -> None:
     """Measure how often plans reach the goal when they are carried out with small errors.
 
-    Plans that were rehearsed (--robust, 2 if it is not given) are compared with those that were not. Without
-    --error the world is disturbed as in rehearsals. With it, the table and hold_rates.svg say how often plans
-    hold with which error.
+    Plans that were rehearsed and improved (--robust, 2 if it is not given; --improve, 24) are compared with
+    the first ones that were found. Without --error the world is disturbed as in rehearsals. With it, table
+    and hold_rates.svg say how often plans hold with which error.
     """
     from proc3s.cli.handlers.bench_execution import FieldTestWanted, run_field_test
 

@@ -16,6 +16,7 @@ from proc3s.llm.types import Completion
 from proc3s.planning.options import RunOptions
 from proc3s.planning.summary import Summary
 from proc3s.reporting.progress import SearchProgress
+from proc3s.reporting.room_words import room_lines
 from proc3s.runs.events import (
     AnswerReceived,
     Audited,
@@ -138,6 +139,8 @@ class Console:
             print_line(out, f"samples  {summary.samples} in {rounds}, {_times(summary)}")
         elif summary.seconds:
             print_line(out, f"time     {_times(summary)}; no sample was drawn")
+        for line in room_lines(summary.room, summary.improved):
+            print_line(out, escape(line))
         for screen, rejected in summary.rejected_by.items():
             if rejected:
                 print_line(out, f"screen   {screen} rejected {rejected}")

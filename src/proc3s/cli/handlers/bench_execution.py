@@ -28,7 +28,7 @@ from proc3s.suites.lock import alone_in
 from proc3s.wording import count
 
 CHART = "hold_rates.svg"
-SEEDS, ROBUST = 5, 2
+SEEDS, ROBUST, IMPROVE = 5, 2, 24
 """Of fixed programs, where the command line says nothing."""
 Work: TypeAlias = Sequence[Callable[[], Candidate]]
 """What finds the plans to be tested, one by one."""
@@ -47,6 +47,7 @@ class FieldTestWanted:
     seeds: int | None = None
     samples: int | None = None
     robust: int | None = None
+    improve: int | None = None
     engines: tuple[str, ...] = ()
     error: tuple[float, ...] = ()
     runs: Path | None = None
@@ -84,23 +85,30 @@ def run_field_test(wanted: FieldTestWanted, out: Path | None, as_json: bool) -> 
 
 
 def _searches(registry: Registry, wanted: FieldTestWanted) -> Work:
-    """Searches of fixed programs, with and without rehearsals. Raises UsageError if none can be tested."""
+    """Searches of fixed programs for the first plan, and for one that is rehearsed and improved.
+
+    Raises UsageError if none can be tested.
+    """
     cases = find_cases(registry, wanted.tasks, wanted.world_options)
     fit = _fit(registry, wanted, cases)
     if not fit:
         errors = "such errors" if wanted.error else "disturbances"
         raise UsageError(f"none of these programs has a task with a judge and a world with {errors}")
-    robust = dict.fromkeys((0, ROBUST if wanted.robust is None else wanted.robust))
+    safer = (
+        ROBUST if wanted.robust is None else wanted.robust,
+        IMPROVE if wanted.improve is None else wanted.improve,
+    )
     seeds = range(SEEDS if wanted.seeds is None else wanted.seeds)
     return [
-        partial(searched, registry, case, seed, rehearsals, wanted.samples)
-        for case, seed, rehearsals in itertools.product(fit, seeds, robust)
+        partial(searched, registry, case, seed, rehearsals, wanted.samples, improve)
+        for case, seed, (rehearsals, improve) in itertools.product(fit, seeds, dict.fromkeys([(0, 0), safer]))
     ]
 
 
 def _plans(registry: Registry, wanted: FieldTestWanted, folder: Path) -> Work:
     """The plans of runs. Raises UsageError if none can be tested, or for an option of searches."""
     searching = {"--seeds": wanted.seeds, "--samples": wanted.samples, "--robust": wanted.robust}
+    searching |= {"--improve": wanted.improve}
     for flag, value in searching.items():
         if value is not None:
             raise UsageError(f"--runs takes plans that are there, and searches none; leave {flag} out")
@@ -152,9 +160,10 @@ def _test(registry: Registry, work: Work, conditions: Conditions, done: list[Fie
 def _told(test: FieldTest) -> str:
     """A test in a line."""
     rehearsed = count(test.robust, "rehearsal") if test.robust else ""
+    room = "" if test.room is None else f"room {test.room:.1f}"
     error = "" if test.error_mm is None else f"{test.error_mm:g} mm"
     outcome = f"{test.satisfied} of {test.times} hold" if test.solved else "no plan"
-    parts = (test.run or f"{test.case} seed {test.seed}", rehearsed, test.engine, error)
+    parts = (test.run or f"{test.case} seed {test.seed}", rehearsed, room, test.engine, error)
     return f"{', '.join(part for part in parts if part)}: {outcome}"
 
 
@@ -180,6 +189,7 @@ def _row(one: HoldRate) -> dict[str, Any]:
     return {
         "program": one.program,
         "rehearsals": one.rehearsals,
+        "improve": one.improve,
         "engine": one.engine,
         "error_mm": one.error_mm,
         "solved": f"{one.plans}/{len(one.tests)}",
@@ -200,7 +210,7 @@ def _print(rates: Sequence[HoldRate], folder: Path, compares: bool) -> None:
 
 def _plain(rates: Sequence[HoldRate]) -> tuple[Sequence[str], list[list[str]]]:
     """What was searched, and how often its plans hold."""
-    head = ("program", "rehearsals", "solved", "samples", "satisfied", "share")
+    head = ("program", "rehearsals", "improve", "solved", "samples", "satisfied", "share")
     rows = [[str(cell) for name, cell in _row(one).items() if name in head[:-1]] for one in rates]
     return head, [
         [*row, f"{one.rate.value:.1%}" if one.rate else ""] for row, one in zip(rows, rates, strict=True)
@@ -209,10 +219,10 @@ def _plain(rates: Sequence[HoldRate]) -> tuple[Sequence[str], list[list[str]]]:
 
 def _compared(rates: Sequence[HoldRate]) -> tuple[Sequence[str], list[list[str]]]:
     """How often plans hold in each engine with each error."""
-    head = ("program", "robust", "engine", "mm", "plans", "held", "%", "95 % interval")
+    head = ("program", "robust", "improve", "engine", "mm", "plans", "held", "%", "95 % interval")
     lines = [
         [
-            *(one.program, str(one.rehearsals), one.engine or ""),
+            *(one.program, str(one.rehearsals), str(one.improve), one.engine or ""),
             "" if one.error_mm is None else f"{one.error_mm:g}",
             *(str(one.plans), f"{one.held}/{one.times}"),
             f"{100 * one.rate.value:.0f}" if one.rate else "",

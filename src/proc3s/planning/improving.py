@@ -1,0 +1,109 @@
+"""An accepted plan is improved: the same program is asked for plans with more room around it."""
+
+import dataclasses
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from proc3s.domain.values import FloatArray
+from proc3s.errors import Interrupted, OutOfTime, Proc3sError, blame
+from proc3s.planning.parts import Setup
+from proc3s.sandbox.errors import SketchError
+from proc3s.search.clock import Deadline
+from proc3s.search.evaluator import Confirm, Evaluator
+from proc3s.search.improvement import ENOUGH, Improvement, improve, room_value
+from proc3s.search.sketch import Sketch
+from proc3s.search.start import space_of
+from proc3s.search.trial import Trial
+
+TRIES = 2
+"""So many of the roomiest plans are rehearsed, and the first accepted one."""
+LATER = 1
+"""After round and candidate in the key of random numbers: no search has a key of this length."""
+
+
+@dataclass(frozen=True)
+class Improved:
+    """What came of improving: the trial with the most room, and what was spent on it, apart from the search.
+
+    `broken_off` is what ended it before its time; the trial is good all the same.
+    """
+
+    best: Trial
+    start: Trial
+    samples: int
+    evaluations: int
+    rehearsals: int
+    broken_off: Proc3sError | None = None
+
+    @property
+    def counts(self) -> dict[str, float | None]:
+        """Samples, and the room before and after."""
+        before, after = (trial.room.value if trial.room else None for trial in (self.start, self.best))
+        return {"samples": self.samples, "room_before": before, "room_after": after}
+
+
+def improved(
+    setup: Setup, sketch: Sketch, start: Trial, key: tuple[int, int], confirm: Confirm, deadline: Deadline
+) -> Improved | None:
+    """The roomiest plan that is found around an accepted one; None where there is nothing to improve.
+
+    Plans are tried without rehearsals, which only decide between the roomiest; none is lost by them.
+    """
+    if setup.improve == 0 or sketch.space.dim == 0 or room_value(start) >= ENOUGH:
+        return None
+    evaluator = Evaluator(dataclasses.replace(setup.problem, robust=0), sketch, setup.executor)
+    found, broken_off = _explore(setup, evaluator, start, key, deadline)
+    best, rehearsals = _kept(setup, found, confirm)
+    return Improved(best, start, evaluator.samples, evaluator.evaluations, rehearsals, broken_off)
+
+
+def _explore(
+    setup: Setup, evaluator: Evaluator, start: Trial, key: tuple[int, int], deadline: Deadline
+) -> tuple[Improvement, Proc3sError | None]:
+    """Samples around the start, and what broke this off."""
+    space, found = space_of(evaluator), Improvement(start)
+    rng = np.random.default_rng(np.random.SeedSequence(setup.problem.seed, spawn_key=(*key, LATER)))
+
+    def take(u: FloatArray) -> Iterator[Trial]:
+        for trial in evaluator.stream(u):
+            yield trial
+            deadline.check()
+
+    try:
+        solver = setup.make_improver(space, setup.improve, rng)
+        with blame("solver", SketchError):
+            improve(found, space, solver, setup.improve, take)
+    except (SketchError, OutOfTime):  # what was found by then is as good
+        return found, None
+    except Proc3sError as error:
+        return found, error
+    except KeyboardInterrupt:
+        return found, Interrupted("interrupted")
+    return found, None
+
+
+def _kept(setup: Setup, found: Improvement, confirm: Confirm) -> tuple[Trial, int]:
+    """The roomiest trial that passes its rehearsals and is confirmed, and the rehearsals of all.
+
+    If none passes, it is the roomiest that is confirmed, or the start if that was to pass rehearsals.
+    """
+    confirmed, rehearsals = list[Trial](), 0
+    for trial in [*found.better[:TRIES], found.start]:
+        if trial is not found.start and confirm(trial) is not None:
+            continue
+        confirmed.append(trial)
+        again = _rehearsed(setup, trial)
+        rehearsals += again.rehearsals
+        if again.accepted:
+            return dataclasses.replace(trial, rehearsals=again.rehearsals), rehearsals
+    return found.start if setup.problem.robust else confirmed[0], rehearsals
+
+
+def _rehearsed(setup: Setup, trial: Trial) -> Trial:
+    """An accepted trial after its rehearsals; itself without any."""
+    if not setup.rehearsals or trial.plan is None:
+        return trial
+    problem = dataclasses.replace(setup.problem, robust=setup.rehearsals)
+    return next(iter(setup.executor.map(problem, [trial.plan])))

@@ -1,0 +1,56 @@
+"""After a plan was accepted: a solver tries samples around it, for a plan with more room."""
+
+import math
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+
+from proc3s.domain.samplers import Space
+from proc3s.domain.values import FloatArray
+from proc3s.search.search import points
+from proc3s.search.solver import Solver
+from proc3s.search.trial import Trial
+
+ENOUGH = 3.0
+"""Expected errors; a plan that stands as many is not improved any further."""
+Take = Callable[[FloatArray], Iterable[Trial]]
+"""Gives the trials of samples (n, dim), in order."""
+
+
+@dataclass
+class Improvement:
+    """What was tried around an accepted trial."""
+
+    start: Trial
+    trials: list[Trial] = field(default_factory=list)
+
+    @property
+    def better(self) -> list[Trial]:
+        """The accepted trials with more room than at the start, the roomiest first."""
+        found = [t for t in self.trials if t.accepted and room_value(t) > room_value(self.start)]
+        return sorted(found, key=room_value, reverse=True)
+
+    @property
+    def most(self) -> float:
+        """The most room so far."""
+        return max(map(room_value, [self.start, *self.better[:1]]))
+
+
+def room_value(trial: Trial) -> float:
+    """Expected errors that an accepted trial stands; infinite where nothing limits it."""
+    return trial.room.value if trial.room else math.inf
+
+
+def improve(found: Improvement, space: Space, solver: Solver, samples: int, take: Take) -> None:
+    """Try at most so many samples that a solver asks for, which is told of the accepted trial first.
+
+    It ends early where a plan has room enough, or the solver asks for no more.
+    """
+    solver.tell([found.start])
+    while (left := samples - len(found.trials)) > 0 and found.most < ENOUGH:
+        u = points(solver.ask(left), space.dim)[:left]
+        if not len(u):
+            break
+        begun = len(found.trials)
+        for trial in take(u):
+            found.trials.append(trial)
+        solver.tell(found.trials[begun:])
