@@ -89,16 +89,22 @@ def _kept(setup: Setup, found: Improvement, confirm: Confirm) -> tuple[Trial, in
 
     If none passes, it is the roomiest that is confirmed, or the start if that was to pass rehearsals.
     """
-    confirmed, rehearsals = list[Trial](), 0
-    for trial in [*found.better[:TRIES], found.start]:
-        if trial is not found.start and confirm(trial) is not None:
-            continue
-        confirmed.append(trial)
-        again = _rehearsed(setup, trial)
-        rehearsals += again.rehearsals
-        if again.accepted:
-            return dataclasses.replace(trial, rehearsals=again.rehearsals), rehearsals
-    return found.start if setup.problem.robust else confirmed[0], rehearsals
+
+    def good(trial: Trial) -> bool:
+        return trial is found.start or confirm(trial) is None
+
+    ranked, rehearsals = [*found.better[:TRIES], found.start], 0
+    try:
+        for trial in ranked:
+            again = _rehearsed(setup, trial)
+            rehearsals += again.rehearsals
+            if again.accepted and good(trial):
+                return trial, rehearsals
+        if not setup.problem.robust:
+            return next(trial for trial in ranked if good(trial)), rehearsals
+    except SketchError:  # too many that cannot be confirmed
+        pass
+    return found.start, rehearsals
 
 
 def _rehearsed(setup: Setup, trial: Trial) -> Trial:
