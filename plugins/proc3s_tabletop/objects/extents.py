@@ -34,7 +34,7 @@ def extent(body: Body, pose: Any) -> Extent:
     turn = rotation(pose.roll, pose.pitch, pose.yaw)
     corners = body.shape.corners() @ turn.T + [pose.x, pose.y, pose.z]
     lean = math.acos(float(np.clip(turn[2, 2], -1.0, 1.0)))
-    return Extent(float(corners[:, 2].min()), float(corners[:, 2].max()), _hull(corners[:, :2]), lean)
+    return Extent(float(corners[:, 2].min()), float(corners[:, 2].max()), hull(corners[:, :2]), lean)
 
 
 def thickness(points: FloatArray) -> float:
@@ -57,9 +57,24 @@ def gap(a: FloatArray, b: FloatArray) -> float:
     return float(((b @ normals.T).min(axis=0) - (a @ normals.T).max(axis=0)).max())
 
 
-def covers(outline: FloatArray, x: float, y: float) -> bool:
-    """Whether a point lies inside a convex outline (n, 2)."""
-    return bool((((np.array([x, y]) - outline) * _normals(outline)).sum(axis=1) <= 0).all())
+def inside(outline: FloatArray, x: float, y: float) -> float:
+    """How far a point lies inside a convex outline (n, 2), m; negative outside."""
+    normals = _normals(outline)
+    return -float(
+        (((np.array([x, y]) - outline) * normals).sum(axis=1) / np.linalg.norm(normals, axis=1)).max()
+    )
+
+
+def common(a: FloatArray, b: FloatArray) -> FloatArray:
+    """The corners (n, 2) of what two convex outlines have in common, in order; (0, 2) for nothing."""
+    for corner, normal in zip(b, _normals(b), strict=True):
+        over = (a - corner) @ normal
+        ahead = np.roll(over, -1)
+        crosses = over * ahead < 0
+        share = np.divide(over, over - ahead, out=np.zeros_like(over), where=crosses)
+        cut = a + share[:, None] * (np.roll(a, -1, axis=0) - a)
+        a = np.stack([a, cut], axis=1)[np.stack([over <= 0, crosses], axis=1)]
+    return a
 
 
 def strip(points: FloatArray) -> float:
@@ -79,7 +94,7 @@ def _normals(outline: FloatArray) -> FloatArray:
 
 
 # No scipy here: scenes are drawn without the extra, and Qhull takes three times as long for a block.
-def _hull(points: FloatArray) -> FloatArray:
+def hull(points: FloatArray) -> FloatArray:
     """The convex hull of points (n, 2), counter-clockwise."""
     ordered = sorted({(round(float(x), 9), round(float(y), 9)) for x, y in points})
     return np.array(_chain(ordered) + _chain(ordered[::-1]))

@@ -1,4 +1,8 @@
-"""Judges of how many things stand to one another."""
+"""Judges of how many things stand to one another.
+
+Their margins are how far one object may be shifted on the level until the goal is missed, m; there is none
+where things are missing, or stand on the wrong height.
+"""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -6,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from proc3s import FloatArray, Plan, Score
-from proc3s_tabletop.tasks.judges import FinalTable
+from proc3s_tabletop.tasks.final_table import FinalTable
 from proc3s_tabletop.tasks.selection import selector
 
 
@@ -51,12 +55,12 @@ def _regular(centres: FloatArray, names: Sequence[str], most: tuple[float, float
         (along, most[0], "neighbours in a row are apart"),
         (across, most[1], "rows are apart"),
     ]
+    margin = float(min(limit - value for value, limit, _ in faults))
     for value, limit, text in faults:
         if value > limit:
-            return Score(False, f"{text}: {1000 * value:.0f} mm, more than {1000 * limit:.0f}")
-    return Score(
-        True, f"{len(centres)} rows of {centres.shape[1]}, {1000 * along:.0f} mm by {1000 * across:.0f}"
-    )
+            return Score(False, f"{text}: {1000 * value:.0f} mm, more than {1000 * limit:.0f}", margin)
+    text = f"{len(centres)} rows of {centres.shape[1]}, {1000 * along:.0f} mm by {1000 * across:.0f}"
+    return Score(True, text, margin)
 
 
 def ordered(
@@ -82,10 +86,12 @@ def ordered(
         return Score(False, f"{', '.join(high)} not on the table")
     x, y = np.array([(s.x, s.y) for s in things]).T
     steps, off = np.diff(x), float(np.abs(y - y.mean()).max())
+    margin = float(min(tolerance - off, *steps, *(most - steps)))
     if (steps <= 0).any():
         k = int(steps.argmin())
-        return Score(False, f"{things[k + 1].says} is not further along x than {things[k].says}")
+        return Score(False, f"{things[k + 1].says} is not further along x than {things[k].says}", margin)
     if steps.max() > most or off > tolerance:
         text = f"neighbours are up to {1000 * steps.max():.0f} mm apart, centres up to {1000 * off:.0f} mm"
-        return Score(False, f"{text} off the line; {1000 * most:.0f} and {1000 * tolerance:.0f} are allowed")
-    return Score(True, f"in order along x, centres within {1000 * off:.0f} mm of one line")
+        text = f"{text} off the line; {1000 * most:.0f} and {1000 * tolerance:.0f} are allowed"
+        return Score(False, text, margin)
+    return Score(True, f"in order along x, centres within {1000 * off:.0f} mm of one line", margin)

@@ -1,7 +1,9 @@
 """Carries a plan out in a world: the pure function that gives a trial."""
 
 import dataclasses
+import math
 from collections.abc import Callable
+from numbers import Real
 from typing import Any
 
 import numpy as np
@@ -85,7 +87,10 @@ def carry_out(
 
 
 def judge(problem: Problem, final: State, plan: Plan) -> tuple[Score | None, str]:
-    """All judges of the task must be satisfied; the reason of the first that is not, else of all."""
+    """All judges of the task must be satisfied; the reason of the first that is not, else of all.
+
+    The margin is the least of those that there are.
+    """
     if problem.goal != problem.task.instruction:
         return None, "custom goals are not judged"
     scores = [_score(problem, target, final, plan) for target in problem.task.judge]
@@ -93,7 +98,8 @@ def judge(problem: Problem, final: State, plan: Plan) -> tuple[Score | None, str
         return None, "the task has no judge"
     missed = [score for score in scores if not score.reached]
     reason = missed[0].reason if missed else "; ".join(score.reason for score in scores)
-    return Score(not missed, reason), reason
+    margin = min((score.margin for score in scores if score.margin is not None), default=None)
+    return Score(not missed, reason, margin), reason
 
 
 def _score(problem: Problem, target: Target, final: State, plan: Plan) -> Score:
@@ -105,6 +111,12 @@ def _score(problem: Problem, target: Target, final: State, plan: Plan) -> Score:
         isinstance(score, Score)
         and isinstance(score.reached, bool | np.bool_)
         and isinstance(score.reason, str)
+        and (score.margin is None or _is_number(score.margin))
     ):
-        return Score(bool(score.reached), score.reason)
-    raise not_wanted(part, score, "a Score of a bool and a reason in words")
+        margin = None if score.margin is None else float(score.margin)
+        return Score(bool(score.reached), score.reason, margin)
+    raise not_wanted(part, score, "a Score of a bool and a reason in words, and a number as its margin")
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, Real) and not isinstance(value, bool) and not math.isnan(value)
