@@ -6,29 +6,34 @@ import mujoco
 import numpy as np
 
 from proc3s import FloatArray
-from proc3s_mujoco.parts import Indices
+from proc3s_mujoco.parts import Indices, Thing
 from proc3s_mujoco.simulation import TableScene
 from proc3s_mujoco.specs import TABLE
 from proc3s_tabletop.telemetry import Clearance
 
+_SAME = 1e-9
+"""Points nearer than this are one, and in no direction from one another, m."""
 _TOUCHING = 0.001
 """Bodies nearer than this hold one another, m."""
 
 
-def distance(scene: TableScene, one: Indices, other: Indices, most: float) -> tuple[float, int] | None:
+def distance(
+    scene: TableScene, one: Indices, other: Indices, most: float, steepest: float = 1.0
+) -> tuple[float, int] | None:
     """The smallest distance of geoms (n,) to geoms (m,), and the geom of the first that has it.
 
-    Negative where they overlap; None where it is `most` or more, metres.
+    Negative where they overlap; None where it is `most` or more, metres. Distances whose direction has an
+    upward part of more than `steepest` are passed over.
     """
     least = _at_least(scene, one, other)
     found: tuple[float, int] | None = None
-    model, data = scene.state.model, scene.state.data
+    model, data, ends = scene.state.model, scene.state.data, np.zeros(6)
     for k in np.argsort(least, axis=None, kind="stable").tolist():
         if least.flat[k] >= most:
             break
         a, b = int(one[k // len(other)]), int(other[k % len(other)])
-        apart = mujoco.mj_geomDistance(model, data, a, b, max(most, 0.0) + 1e-6, None)
-        if apart < most:
+        apart = mujoco.mj_geomDistance(model, data, a, b, max(most, 0.0) + 1e-6, ends)
+        if apart < most and abs(ends[5] - ends[2]) <= steepest * max(abs(apart), _SAME):
             most, found = apart, (apart, a)
     return found
 
@@ -47,10 +52,13 @@ def _at_least(scene: TableScene, one: Indices, other: Indices) -> FloatArray:
 def _close(scene: TableScene, one: str, other: str, most: float) -> bool:
     """Whether two objects are nearer than `most`, metres."""
     a, b = scene.parts.things[one], scene.parts.things[other]
-    here, there = (scene.state.data.qpos[thing.position][:3] for thing in (a, b))
-    if np.linalg.norm(here - there) - a.radius - b.radius >= most:
-        return False
-    return distance(scene, a.geoms, b.geoms, most) is not None
+    return _spheres(scene, a, b) < most and distance(scene, a.geoms, b.geoms, most) is not None
+
+
+def _spheres(scene: TableScene, one: Thing, other: Thing) -> float:
+    """The distance of the spheres around two objects, metres."""
+    here, there = (scene.state.data.qpos[thing.position][:3] for thing in (one, other))
+    return float(np.linalg.norm(here - there)) - one.radius - other.radius
 
 
 def near(scene: TableScene, name: str, distance: float) -> list[str]:
@@ -78,3 +86,12 @@ def hand_clearances(scene: TableScene, gripped: str | None = None) -> dict[str, 
         name: distance(scene, parts.robot, theirs, most) for name, theirs in geoms.items() if name != gripped
     }
     return {name: Clearance(hit[0], parts.part[hit[1]], name) for name, hit in found.items() if hit}
+
+
+def beside(scene: TableScene, name: str, other: str, most: float) -> float | None:
+    """The smallest distance of two objects of which one is beside the other, if it is less than `most`, m."""
+    a, b = scene.parts.things[name], scene.parts.things[other]
+    if _spheres(scene, a, b) >= most:
+        return None
+    found = distance(scene, a.geoms, b.geoms, most, steepest=scene.settings.supporting)
+    return found and found[0]

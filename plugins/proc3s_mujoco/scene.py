@@ -33,6 +33,7 @@ class Scene(TableScene):
     cover = rays.cover
     near = closest.near
     hand_clearances = closest.hand_clearances
+    beside = closest.beside
     company = closest.company
     on_hand = forces.on_hand
     presses = forces.presses

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import toy_world
-from proc3s import Action, PlanBatch, Rollouts, SpecError
+from proc3s import Action, PlanBatch, Rollouts, Score, SpecError
 from proc3s.domain.world import make_world
 from proc3s.plugins.registry import open_registry
 from proc3s.search.rollout import carry_out, judge
@@ -28,11 +28,13 @@ def screened(tmp_path, screen):
     return dataclasses.replace(problem, domain=dataclasses.replace(problem.domain, spec=spec))
 
 
-@pytest.mark.parametrize("answer", ["bool", "none", "string", "pair", "mapping", "unsure", "speechless"])
+@pytest.mark.parametrize(
+    "answer", ["bool", "none", "string", "pair", "mapping", "unsure", "speechless", "lost", "off"]
+)
 def test_a_judge_says_a_score(tmp_path, answer):
     problem = toy_world.problem(tmp_path)
     task = problem.task.model_copy(update={"judge": (target("judge", answer),)})
-    words = r"judge wrong_answers:judge of toy/shift: .*returned .*, not a Score of a bool and a reason"
+    words = r"judge wrong_answers:judge of toy/shift: .*returned .*, not a Score of a bool and a reason in"
     with pytest.raises(SpecError, match=words):
         judge(dataclasses.replace(problem, task=task), problem.initial, ())
 
@@ -42,6 +44,16 @@ def test_a_score_of_numpy_is_one(tmp_path):
     task = problem.task.model_copy(update={"judge": (target("judge", "numpy"),)})
     score, _ = judge(dataclasses.replace(problem, task=task), problem.initial, ())
     assert score.reached is True
+    assert score.margin is None
+
+
+def test_the_margin_of_a_goal_is_the_least_that_its_judges_say(tmp_path):
+    problem = toy_world.problem(tmp_path)
+    judges = tuple(target("judge", answer) for answer in ("wide", "numpy", "narrow"))
+    task = problem.task.model_copy(update={"judge": judges})
+    score, _ = judge(dataclasses.replace(problem, task=task), problem.initial, ())
+    assert score == Score(True, "far off; all well; near", 0.25)
+    assert type(score.margin) is float
 
 
 @pytest.mark.parametrize("answer", ["bool", "none", "string", "pair", "nan"])

@@ -7,6 +7,7 @@ import numpy as np
 from proc3s import FloatArray
 from proc3s_tabletop.actions.attempt import Attempt
 from proc3s_tabletop.actions.motion import Line, contact, follow, line_down, put, travel
+from proc3s_tabletop.actions.neighbours import lower, note_neighbours
 from proc3s_tabletop.actions.outcome import compare, rest
 from proc3s_tabletop.engine.protocol import GripSimulation
 from proc3s_tabletop.engine.values import Touch, deepest
@@ -39,11 +40,14 @@ def place(attempt: Attempt, grasp: FloatArray, grips: GripSimulation) -> None:
     line = line_down(attempt, grasp, attempt.settings.press)
     travel(attempt, line.q[0], "carry", name)
     stand = descend(attempt, line, name)
-    drop = 0.0
+    start, drop = scene.frame(name), 0.0
     if stand.obstruction:
         note_support(attempt, stand.obstruction.held, stand.height - float(grasp[2, 3]))
     else:
         drop = measure_drop(attempt, name)
+    note_neighbours(attempt, name, lower(start, drop))
+    # Bit for bit where it was: a frame that was read is not quite the one that was put.
+    scene.carry() if stand.obstruction else scene.put(name, start)
     release(attempt, grips, line, stand, name, drop)
 
 
@@ -120,8 +124,7 @@ def measure_drop(attempt: Attempt, name: str) -> float:
 
 def _lowered(attempt: Attempt, name: str, start: Frame, drop: float) -> list[Touch]:
     """What the object would touch lower down."""
-    x, y, z = start.position
-    attempt.scene.put(name, Frame((x, y, z - drop), start.rotation))
+    attempt.scene.put(name, lower(start, drop))
     attempt.scene.detect()
     return attempt.scene.held_touches(name)
 

@@ -63,6 +63,13 @@ def hand_clearances(scene: TableScene, gripped: str | None = None) -> dict[str, 
     return found
 
 
+def beside(scene: TableScene, name: str, other: str, most: float) -> float | None:
+    """The smallest distance of two objects of which one is beside the other, if it is less than `most`, m."""
+    points = scene.client.getClosestPoints(scene.bodies[name], scene.bodies[other], most)
+    steepest = scene.settings.supporting
+    return min((p[DISTANCE] for p in points if abs(p[NORMAL][2]) < steepest), default=None)
+
+
 def company(scene: TableScene, names: Iterable[str]) -> set[str]:
     """The objects among `names`, and all that touch them, directly or through others.
 

@@ -34,6 +34,7 @@ class Scene(TableScene):
     robot_contact = contacts.robot_contact
     held_touches = contacts.held_touches
     hand_clearances = contacts.hand_clearances
+    beside = contacts.beside
     company = contacts.company
     grip_force = contacts.grip_force
     on_hand = forces.on_hand

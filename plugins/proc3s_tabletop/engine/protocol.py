@@ -209,6 +209,11 @@ class Simulation(TableSimulation, Protocol):
     def hand_clearances(self, gripped: str | None = None) -> dict[str, Clearance]:
         """The smallest distance of the robot to everything near but the gripped object, by name."""
 
+    def beside(self, name: str, other: str, most: float) -> float | None:
+        """The smallest distance of two objects of which one is beside the other, not above it, m; None where
+        it is `most` or more.
+        """
+
     def grip_force(self, name: str) -> float:
         """Normal force of the side of the hand that presses an object less, newtons."""
 

@@ -60,9 +60,8 @@ def gap(a: FloatArray, b: FloatArray) -> float:
 def inside(outline: FloatArray, x: float, y: float) -> float:
     """How far a point lies inside a convex outline (n, 2), m; negative outside."""
     normals = _normals(outline)
-    return -float(
-        (((np.array([x, y]) - outline) * normals).sum(axis=1) / np.linalg.norm(normals, axis=1)).max()
-    )
+    outside = ((np.array([x, y]) - outline) * normals).sum(axis=1) / np.linalg.norm(normals, axis=1)
+    return -float(outside.max())
 
 
 def common(a: FloatArray, b: FloatArray) -> FloatArray:
