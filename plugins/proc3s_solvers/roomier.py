@@ -22,7 +22,7 @@ class RoomierOptions(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     population: int = Field(default=6, ge=4, description="samples of a generation")
-    sigma: float = Field(default=0.1, gt=0, le=1, description="deviation of the first generation, in ranges")
+    sigma: float = Field(default=0.05, gt=0, le=1, description="deviation of the first generation, in ranges")
 
 
 class Roomier(BatchSearch):

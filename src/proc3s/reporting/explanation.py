@@ -4,8 +4,10 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from proc3s.domain.room import Room
 from proc3s.reporting.advice import Pointer, of_program, of_run
 from proc3s.reporting.history import ProgramRecord, RoundRecord, Story
+from proc3s.reporting.room_words import improvement
 from proc3s.reporting.templates import ReportTemplates
 from proc3s.sandbox.text import clean
 
@@ -81,4 +83,9 @@ def _program(program: ProgramRecord, story: Story, templates: ReportTemplates) -
 def _executed(story: Story) -> dict[str, Any] | None:
     if story.executed is None:
         return None
-    return {name: value for name, value in story.executed.items() if name not in ("event", "time")}
+    told = {name: value for name, value in story.executed.items() if name not in ("event", "time")}
+    room, improved = told.get("room"), (story.summary or {}).get("improved")
+    return told | {
+        "room_words": str(Room(**room)) if room else None,
+        "improved": improvement(improved) if improved else None,
+    }

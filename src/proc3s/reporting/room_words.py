@@ -16,9 +16,9 @@ def room_lines(room: Mapping[str, Any] | None, improved: Mapping[str, Any] | Non
 
 
 def improvement(improved: Mapping[str, Any]) -> str:
-    """`room 0.4 to 2.1 with 24 more samples`."""
+    """`from 0.4 to 2.1 by 24 samples around the first plan`."""
     before, after, more = improved["room_before"], improved["room_after"], improved["samples"]
-    tried = f"{count(int(more), 'sample')} around it"
+    tried = f"{count(int(more), 'sample')} around the first plan"
     if before is None or after is None or after <= before:
-        return f"not: {tried} have no more room"
-    return f"from room {before:.1f} to {after:.1f} by {tried}"
+        return f"no more by {tried}"
+    return f"from {before:.1f} to {after:.1f} by {tried}"
