@@ -38,7 +38,7 @@ def collision(step: Step, highest: float) -> Margin | None:
         return min(found, key=lambda margin: margin.value)
     if measured.ended and measured.clearance is None:
         return None
-    return Margin(max(0.0, measured.clearance.distance) if measured.clearance else SETTINGS.near)
+    return _passes(step) or Margin(SETTINGS.near)
 
 
 def grasp(step: Step) -> Margin | None:
@@ -54,7 +54,8 @@ def grasp(step: Step) -> Margin | None:
     if measured.wanted not in (None, measured.held):
         other, wanted = thing(step, measured.held), thing(step, str(measured.wanted))
         return Margin(-UNMEASURED, {"why": sentences.closes_on_other(other, wanted)})
-    return Margin(min(_spare(measured)), {"why": sentences.slips(thing(step, measured.held))})
+    spare, what = min(_spare(measured)), thing(step, measured.held)
+    return Margin(spare, {"why": sentences.slips(what)}, sentences.could_slip(what, spare))
 
 
 def _spare(measured: Telemetry) -> Iterator[float]:
@@ -80,12 +81,13 @@ def placement(step: Step, moved: float, turned: float, lowest: float) -> Margin 
     height = measured.support_height
     found = [_bounds(step)]
     if height is not None:
-        found.append(Margin(lowest + height, {"why": _too_high(step)}))
+        found.append(_drop(step, lowest + height))
     if measured.at_rest is False:
         found.append(Margin(-UNMEASURED, {"why": sentences.RESTLESS}))
     found += [_stays(step, d, moved, turned) for d in measured.displacements or ()]
-    least = min(margin.value for margin in found)
-    return Margin(least, {"why": ", and ".join(m.details["why"] for m in found if m.value < 0)})
+    least = min(found, key=lambda margin: margin.value)
+    why = ", and ".join(m.details["why"] for m in found if m.value < 0)
+    return Margin(least.value, {"why": why}, least.says)
 
 
 def thing(step: Step, name: str) -> str:
@@ -102,6 +104,15 @@ def _contact(step: Step) -> Iterator[Margin]:
     what = sentences.in_hand(thing(step, body)) if body == measured.target else thing(step, body)
     details = sentences.collides(what, thing(step, other), sentences.COLLISIONS[measured.ended])
     yield Margin(min(measured.clearance.distance, -SETTINGS.touch), details)
+
+
+def _passes(step: Step) -> Margin | None:
+    """How near robot or load come to anything, without a contact."""
+    clearance = step.telemetry.clearance
+    if clearance is None:
+        return None
+    distance, one, other = max(0.0, clearance.distance), clearance.body, clearance.other
+    return Margin(distance, says=sentences.passes(thing(step, one), thing(step, other), distance))
 
 
 def _squeezed(step: Step) -> Iterator[Margin]:
@@ -184,12 +195,14 @@ def _bounds(step: Step) -> Margin:
     if bound is None:
         return Margin(SETTINGS.near, {"why": ""})
     what = sentences.TARGET if bound.name == "target" else thing(step, bound.name)
-    return Margin(bound.distance, {"why": sentences.out_of_bounds(what)})
+    says = sentences.inside(what, bound.distance)
+    return Margin(bound.distance, {"why": sentences.out_of_bounds(what)}, says)
 
 
-def _too_high(step: Step) -> str:
-    measured = step.telemetry
-    return sentences.drops(thing(step, str(measured.target)), thing(step, measured.support or TABLE))
+def _drop(step: Step, margin: float) -> Margin:
+    """How much higher what is set down might be let go."""
+    what, below = thing(step, str(step.telemetry.target)), thing(step, step.telemetry.support or TABLE)
+    return Margin(margin, {"why": sentences.drops(what, below)}, sentences.supported(what, below, margin))
 
 
 def _stays(step: Step, d: Displacement, moved: float, turned: float) -> Margin:
@@ -200,5 +213,5 @@ def _stays(step: Step, d: Displacement, moved: float, turned: float) -> Margin:
         says = sentences.knocked_over
     else:
         says = sentences.moved_along
-    why = says(thing(step, d.name))
-    return Margin(min(moved - d.shift, (turned - d.turned) * LEVER), {"why": why})
+    left, what = min(moved - d.shift, (turned - d.turned) * LEVER), thing(step, d.name)
+    return Margin(left, {"why": says(what)}, sentences.stays(what, left))

@@ -1,8 +1,9 @@
 """What is said of an action or a scene that fails, each sentence written once, whoever finds the failure.
 
 Constraints measure it in a world, screens foresee it, a scene may begin with it. Sentences name what is
-involved and leave numbers to the margins, so that the same failure reads the same in every sample. `what` is
-a body as `called` names it, lengths are metres. What a judge says of a goal is said in that judge alone.
+involved and leave numbers to the margins, so that the same failure reads the same in every sample; those at
+the end say what is left where nothing fails, with the number. `what` is a body as `called` names it, lengths
+are metres. What a judge says of a goal is said in that judge alone.
 """
 
 from collections.abc import Mapping
@@ -128,3 +129,28 @@ def out_of_bounds(what: str) -> str:
 def deep_in(what: str, other: str, depth: float) -> str:
     """A scene has two bodies in one place."""
     return f"{what} is {1000 * depth:.0f} mm deep in {other}"
+
+
+def passes(what: str, other: str, distance: float) -> str:
+    """A body comes near another without touching it."""
+    return f"{what} passes {other} at {1000 * distance:.1f} mm"
+
+
+def could_slip(what: str, further: float) -> str:
+    """A grasp holds, and would at most lose so much more."""
+    return f"{what} is held with {1000 * further:.1f} mm to spare"
+
+
+def inside(what: str, distance: float) -> str:
+    """A body, or TARGET, is above the table."""
+    return f"{what} is {1000 * distance:.1f} mm inside the bounds of the table"
+
+
+def stays(what: str, further: float) -> str:
+    """A body hardly moves, and might by so much more."""
+    return f"{what} stays where it is with {1000 * further:.1f} mm to spare"
+
+
+def supported(what: str, below: str, further: float) -> str:
+    """A place lets go not far above what is below, and might be higher by so much."""
+    return f"{what} meets {below} with {1000 * further:.1f} mm to spare"
