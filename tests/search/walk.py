@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from proc3s import Margin, Violation, World, hookimpl, load_domain
+from proc3s import Margin, Score, Violation, World, hookimpl, load_domain
 
 PITS = ((6.0, 12.0), (20.0, 27.0), (36.0, 46.0), (54.0, 66.0), (74.0, 84.0))
 
@@ -54,6 +54,15 @@ def hop(world, by):
 
 def on_line(transition):
     return 100.0 - transition.telemetry
+
+
+def on_line_at_all(transition):
+    return bool(transition.telemetry <= 100.0)
+
+
+def near(state, plan, place, reach):
+    off = abs(state.place - place)
+    return Score(off <= reach, f"{off:g} m off", reach - off)
 
 
 def no_pit(transition):

@@ -1,0 +1,75 @@
+"""Samples around an accepted plan are tried for one with more room."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from proc3s.search.evaluator import Evaluator
+from proc3s.search.improvement import ENOUGH, Improvement, improve, room_value
+from proc3s.specs.domain import ErrorsSpec
+from proc3s_solvers.roomier import Roomier, RoomierOptions
+
+from .conftest import HOPS, Walks
+
+START = (5.9, 7.0, 6.0, 0.5, 0.5)
+"""A tenth of a metre before the first pit, then over it."""
+
+
+@pytest.fixture
+def narrow(problem):
+    """A problem in which a metre is what is to be expected."""
+    made = problem()
+    spec = made.domain.spec.model_copy(update={"errors": ErrorsSpec(placed=1.0)})
+    return dataclasses.replace(made, domain=dataclasses.replace(made.domain, spec=spec))
+
+
+def improved(problem, executor, samples=60, seed=0, start=START):
+    evaluator = Evaluator(problem, Walks(problem), executor)
+    (first,) = evaluator.stream(np.array([start]) / 30)
+    assert first.accepted
+    found = Improvement(first)
+    space = evaluator.sketch.space
+    solver = Roomier(space, samples, np.random.default_rng(seed), RoomierOptions())
+    improve(found, space, solver, samples, evaluator.stream)
+    return found
+
+
+def test_there_is_more_room_around_an_accepted_plan(narrow, serial):
+    found = improved(narrow, serial)
+    assert room_value(found.start) == pytest.approx(0.1)
+    assert found.most > 0.5
+    assert found.better[0].accepted
+    assert [*map(room_value, found.better)] == sorted(map(room_value, found.better), reverse=True)
+
+
+def test_no_more_samples_are_tried_than_wanted(narrow, serial):
+    assert len(improved(narrow, serial, samples=7).trials) == 7
+
+
+def test_it_ends_where_there_is_room_enough(narrow, serial):
+    spec = narrow.domain.spec.model_copy(update={"errors": ErrorsSpec(placed=0.1)})
+    easy = dataclasses.replace(narrow, domain=dataclasses.replace(narrow.domain, spec=spec))
+    found = improved(easy, serial)
+    assert found.most >= ENOUGH
+    assert len(found.trials) < 60
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_it_is_the_same_with_any_number_of_workers(narrow, serial, two, seed):
+    one, other = (improved(narrow, executor, samples=24, seed=seed) for executor in (serial, two))
+    assert one.trials == other.trials
+
+
+def test_a_solver_that_gives_up_ends_it(narrow, serial):
+    class Tired:
+        def tell(self, trials):
+            self.told = list(trials)
+
+        def ask(self, limit):
+            return np.empty((0, HOPS))
+
+    found, solver = Improvement(improved(narrow, serial, samples=1).start), Tired()
+    improve(found, Walks(narrow).space, solver, 10, lambda u: iter(()))
+    assert solver.told == [found.start]
+    assert found.trials == []
