@@ -1,4 +1,7 @@
-"""Judges of the harder drawings: a spiral, and a word."""
+"""Judges of the harder drawings: a spiral, and a word.
+
+Margins are how far the end of a stroke may be moved until sizes, angles and proportions are wrong.
+"""
 
 from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
@@ -9,7 +12,7 @@ from proc3s.domain.values import FloatArray, Plan
 from proc3s.domain.world import Score
 from proc3s_drawing import geometry as geo
 from proc3s_drawing.geometry import StrokeGraph, angle_between
-from proc3s_drawing.judges import require, verdict, within
+from proc3s_drawing.readings import Reading, degree, require, verdict, within
 
 SHY = 15.0
 """By so many degrees a turn may fall short: the ends of a polygon turn on one side only."""
@@ -30,7 +33,7 @@ def spells_hi(state: Any, plan: Plan) -> Score:
     return verdict(state, _hi)
 
 
-def _spiral(graph: StrokeGraph, turns: float, size: float) -> str:
+def _spiral(graph: StrokeGraph, turns: float, size: float) -> Reading:
     require(not graph.of_degree(3), "the curve crosses or touches itself")
     require(len(graph.chains) == 1, f"a spiral is one open curve; here are {len(graph.chains)}")
     require({*graph.chains[0]} == {*graph.neighbours}, "there is a closed loop besides the curve")
@@ -38,12 +41,16 @@ def _spiral(graph: StrokeGraph, turns: float, size: float) -> str:
     bends = angle_between(strokes[:-1], strokes[1:])
     turned = float(np.abs(bends.sum()))
     back = float(np.abs(bends).sum()) - turned
-    require(back <= SHY, f"the curve turns back by {back / 2:.0f} degrees in all")
-    least = 360 * turns - SHY
-    require(turned >= least, f"the curve turns by {turned:.0f} degrees, {360 * turns:.0f} are wanted")
+    unit = degree(float(np.linalg.norm(strokes, axis=1).min()))
+    straight, far = (SHY - back) * unit, (turned - (360 * turns - SHY)) * unit
+    require(straight >= 0, f"the curve turns back by {back / 2:.0f} degrees in all", straight)
+    require(far >= 0, f"the curve turns by {turned:.0f} degrees, {360 * turns:.0f} are wanted", far)
     spread = float(np.ptp(graph.nodes[graph.chains[0]], axis=0).min())
-    require(spread >= size, f"the curve is {spread:.0f} units wide or high, {size:g} are wanted")
-    return f"a curve that turns by {turned:.0f} degrees and never crosses itself"
+    require(
+        spread >= size, f"the curve is {spread:.0f} units wide or high, {size:g} are wanted", spread - size
+    )
+    says = f"a curve that turns by {turned:.0f} degrees and never crosses itself"
+    return says, min(straight, far, spread - size)
 
 
 class _Letter(NamedTuple):
@@ -53,23 +60,27 @@ class _Letter(NamedTuple):
     right: float
     bottom: float
     top: float
+    margin: float
+    """How far the end of a stroke may be moved until it is another, canvas units."""
 
     @property
     def height(self) -> float:
         return self.top - self.bottom
 
 
-def _hi(graph: StrokeGraph) -> str:
+def _hi(graph: StrokeGraph) -> Reading:
     parts = sorted(_parts(graph), key=lambda part: float(graph.nodes[part, 0].mean()))
     require(len(parts) == 2, f"H and I are two separate letters; here are {len(parts)} separate drawings")
     h, i = _read_h(graph, parts[0]), _read_i(graph, parts[1])
     low, high = sorted((h.height, i.height))
-    within("the lower letter as a share of the higher", low / high, 0.7, 1)
-    within(
-        "how unlevel the letters stand, as a share of their height", abs(h.bottom - i.bottom) / high, 0, 0.2
+    level, apart = abs(h.bottom - i.bottom) / high, (i.left - h.right) / high
+    return "the letters H and I, in this order", min(
+        h.margin,
+        i.margin,
+        within("the lower letter as a share of the higher", low / high, 0.7, 1, high),
+        within("how unlevel the letters stand, as a share of their height", level, 0, 0.2, high),
+        within("the gap between the letters as a share of their height", apart, 0.1, 2, high),
     )
-    within("the gap between the letters as a share of their height", (i.left - h.right) / high, 0.1, 2)
-    return "the letters H and I, in this order"
 
 
 def _parts(graph: StrokeGraph) -> Iterator[list[int]]:
@@ -95,51 +106,51 @@ def _read_h(graph: StrokeGraph, part: Sequence[int]) -> _Letter:
     chains = [chain for chain in graph.chains if chain[0] in part]
     bars = [chain for chain in chains if {chain[0], chain[-1]} == set(forks)]
     require(len(bars) == 1 and len(chains) == 5, shape)
-    _require_straight(graph, bars[0], "the bar of the H", np.array([1.0, 0.0]), 20)
-    legs = [_leg(graph, chains, fork) for fork in forks]
-    (left, right), bar = legs, graph.nodes[forks].mean(axis=0)
-    letter = _box(np.vstack(legs))
-    wide = float(right[:, 0].mean() - left[:, 0].mean())
-    within("the width of the H as a share of its height", wide / letter.height, 0.3, 1.5)
-    within(
-        "the height of its bar as a share of that of the H",
-        (bar[1] - letter.bottom) / letter.height,
-        0.25,
-        0.75,
+    straight = _straight(graph, bars[0], "the bar of the H", np.array([1.0, 0.0]), 20)
+    legs, upright = zip(*(_leg(graph, chains, fork) for fork in forks), strict=True)
+    letter = _box(np.vstack(legs), min(straight, *upright))
+    margin = _proportions(legs[0], legs[1], letter, float(graph.nodes[forks, 1].mean()))
+    return letter._replace(margin=min(letter.margin, margin))
+
+
+def _proportions(left: FloatArray, right: FloatArray, letter: _Letter, bar: float) -> float:
+    """The margin of the proportions of an H of two legs (2, 2), with its bar at this height."""
+    tall, wide = letter.height, float(right[:, 0].mean() - left[:, 0].mean())
+    low, high = sorted(float(np.ptp(leg[:, 1])) for leg in (left, right))
+    level = abs(float(left[:, 1].min() - right[:, 1].min())) / tall
+    up = (bar - letter.bottom) / tall
+    return min(
+        within("the width of the H as a share of its height", wide / tall, 0.3, 1.5, tall),
+        within("the height of its bar as a share of that of the H", up, 0.25, 0.75, tall),
+        within("the shorter leg of the H as a share of the longer", low / high, 0.8, 1, high),
+        within("how unlevel the legs of the H stand, as a share of its height", level, 0, 0.2, tall),
     )
-    low, high = sorted(float(np.ptp(leg[:, 1])) for leg in legs)
-    within("the shorter leg of the H as a share of the longer", low / high, 0.8, 1)
-    level = abs(float(left[:, 1].min() - right[:, 1].min())) / letter.height
-    within("how unlevel the legs of the H stand, as a share of its height", level, 0, 0.2)
-    return letter
 
 
-def _leg(graph: StrokeGraph, chains: Sequence[list[int]], fork: int) -> FloatArray:
-    """The two ends (2, 2) of the leg that a fork lies on."""
+def _leg(graph: StrokeGraph, chains: Sequence[list[int]], fork: int) -> tuple[FloatArray, float]:
+    """The two ends (2, 2) of the leg that a fork lies on, and the margin of how upright it is."""
     arms = [c for c in chains if fork in (c[0], c[-1]) and len({c[0], c[-1]} & set(graph.of_degree(3))) == 1]
     require(len(arms) == 2, "a leg of the H is no line through the end of its bar")
-    for arm in arms:
-        _require_straight(graph, arm, "a leg of the H", UP, 15)
-    return np.array([graph.nodes[arm[-1] if arm[0] == fork else arm[0]] for arm in arms])
+    margin = min(_straight(graph, arm, "a leg of the H", UP, 15) for arm in arms)
+    return np.array([graph.nodes[arm[-1] if arm[0] == fork else arm[0]] for arm in arms]), margin
 
 
 def _read_i(graph: StrokeGraph, part: Sequence[int]) -> _Letter:
     chains = [chain for chain in graph.chains if chain[0] in part]
     require(len(chains) == 1 and {*chains[0]} == {*part}, "the right letter is no I of one stroke")
-    _require_straight(graph, chains[0], "the I", UP, 15)
-    return _box(graph.nodes[[*part]])
+    return _box(graph.nodes[[*part]], _straight(graph, chains[0], "the I", UP, 15))
 
 
-def _require_straight(
-    graph: StrokeGraph, chain: Sequence[int], what: str, way: FloatArray, most: float
-) -> None:
-    """Refuse a chain that is bent, or leans from a way by more than `most` degrees."""
+def _straight(graph: StrokeGraph, chain: Sequence[int], what: str, way: FloatArray, most: float) -> float:
+    """The margin of a chain that may lean from a way by at most `most` degrees; a bent one is refused."""
     points = geo.simplify(graph.nodes[[*chain]], graph.tolerance)
     require(len(points) == 2, f"{what} is not straight")
-    lean = abs(float(angle_between(way, points[1] - points[0])))
-    within(f"{what}: degrees by which it leans", min(lean, 180 - lean), 0, most)
+    along = points[1] - points[0]
+    lean = abs(float(angle_between(way, along)))
+    unit = degree(float(np.linalg.norm(along)))
+    return within(f"{what}: degrees by which it leans", min(lean, 180 - lean), 0, most, unit)
 
 
-def _box(points: FloatArray) -> _Letter:
+def _box(points: FloatArray, margin: float) -> _Letter:
     (left, bottom), (right, top) = points.min(axis=0), points.max(axis=0)
-    return _Letter(float(left), float(right), float(bottom), float(top))
+    return _Letter(float(left), float(right), float(bottom), float(top), margin)

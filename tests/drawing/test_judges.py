@@ -572,6 +572,41 @@ def test_encloses_a_given_number(count, reached):
     assert encloses(drawing(ring(BOX), PAIR), (), count=count).reached is reached
 
 
+# How much room there is
+
+
+def test_the_margin_of_an_enclosure_is_the_clearance_of_the_obstacles_that_it_needs():
+    box = drawing(ring(BOX), PAIR)  # (28, 40) to (70, 60)
+    assert encloses(box, (), count=2).margin == pytest.approx(10 - 6)
+    assert encloses(box, (), count=1).margin == pytest.approx(10 - 5)
+    near = [*PAIR, circle("grey", 75, 50, 4)]
+    assert encloses(drawing(ring(BOX), near), (), count=2).margin == pytest.approx(4)
+    assert encloses(drawing(ring(BOX), near), (), count=2, exact=True).margin == pytest.approx(1)
+
+
+@pytest.mark.parametrize(
+    ("obstacles", "margin"),
+    [
+        ([circle("red", 85, 57, 10)], 3 * 40 / 65),  # the tip of the arrow is 40 from its tail, the red 65
+        ([circle("red", 85, 50, 10), circle("grey", 70, 54, 3)], 1 * 40 / 50),
+    ],
+)
+def test_the_margin_of_an_aim_is_how_far_the_tip_may_move_aside(obstacles, margin):
+    def moved(by):
+        return is_arrow(drawing(mapped(ARROW, [[1, 0], [by / 40, 1]], (0, -by / 2)), obstacles), ())
+
+    assert moved(0).margin == pytest.approx(margin)
+    side = -1 if len(obstacles) == 1 else 1
+    assert moved(side * 0.95 * margin).reached
+    assert not moved(side * 1.05 * margin).reached
+
+
+def test_the_margin_of_a_tilt_is_the_way_of_the_top_of_the_letter():
+    upright, tilted = (is_letter_m(drawing(turned(M, degrees)), ()).margin for degrees in (0, 20))
+    assert tilted < upright
+    assert tilted == pytest.approx(math.radians(4) * 40, rel=0.15)
+
+
 # What changes no verdict
 
 
@@ -670,6 +705,15 @@ def test_every_scribble_gets_a_verdict(judge, n, jitter, seed):
     rng = np.random.default_rng(seed)
     lines = rng.integers(0, 6, (n, 4)) * 20 + rng.normal(0, 1, (n, 4)) * jitter
     assert judge(drawing(lines.tolist(), PAIR), ()).reason
+
+
+@judges
+def test_margins_are_negative_where_a_drawing_is_refused_and_only_there(judge):
+    accepted, refused, obstacles = CASES[judge]
+    for lines in accepted.values():
+        assert judge(drawing(lines, obstacles), ()).margin > 0
+    for lines in refused.values():
+        assert (judge(drawing(lines, obstacles), ()).margin or -1) < 0
 
 
 @judges
