@@ -9,6 +9,7 @@ from proc3s import FloatArray
 from proc3s_mujoco.parts import Indices, Thing
 from proc3s_mujoco.simulation import TableScene
 from proc3s_mujoco.specs import TABLE
+from proc3s_tabletop.engine.values import ANY
 from proc3s_tabletop.telemetry import Clearance
 
 _SAME = 1e-9
@@ -18,7 +19,7 @@ _TOUCHING = 0.001
 
 
 def distance(
-    scene: TableScene, one: Indices, other: Indices, most: float, steepest: float = 1.0
+    scene: TableScene, one: Indices, other: Indices, most: float, steepest: float = ANY
 ) -> tuple[float, int] | None:
     """The smallest distance of geoms (n,) to geoms (m,), and the geom of the first that has it.
 
@@ -78,12 +79,19 @@ def company(scene: TableScene, names: Iterable[str]) -> set[str]:
     return found
 
 
-def hand_clearances(scene: TableScene, gripped: str | None = None) -> dict[str, Clearance]:
-    """The smallest distance of the robot to everything near but the gripped object, by name."""
+def hand_clearances(
+    scene: TableScene, gripped: str | None = None, steepest: float = ANY
+) -> dict[str, Clearance]:
+    """The smallest distance of the robot to everything near but the gripped object, by name.
+
+    Directions with an upward part of more than `steepest` do not count.
+    """
     parts, most = scene.parts, scene.settings.near
     geoms = {name: thing.geoms for name, thing in parts.things.items()} | {TABLE: np.array([parts.table])}
     found = {
-        name: distance(scene, parts.robot, theirs, most) for name, theirs in geoms.items() if name != gripped
+        name: distance(scene, parts.robot, theirs, most, steepest)
+        for name, theirs in geoms.items()
+        if name != gripped
     }
     return {name: Clearance(hit[0], parts.part[hit[1]], name) for name, hit in found.items() if hit}
 

@@ -88,8 +88,8 @@ class Telemetry:
     ik_residual: float | None = None
     """Largest distance of the grasp point from its line on the way; if out of reach, the miss."""
     clearance: Clearance | None = None
-    """The smallest clearance of the robot at grasp, set-down and opening, and of what is set down to what is
-    beside it; where the action ended in contact, that."""
+    """The smallest clearance to a side: of the robot at grasp, set-down and opening, and of what is set down;
+    where the action ended in contact, that."""
     cover: float | None = None
     """Share of a grid of rays between the pads that meet the target, 0 to 1."""
     too_wide: str | None = None

@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
 from proc3s_tabletop.objects.extents import common, gap, hull, inside
@@ -84,7 +84,7 @@ GOALS = {
     stacked: [(0, 0, 0.02), (0, 0, 0.06), (0, 0, 0.1)],
     line: [(0, 0, 0.02), (0.1, 0, 0.02), (0.2, 0, 0.02)],
     line_of_three: [(0, 0, 0.02), (0.1, 0, 0.02), (0.2, 0, 0.02), (0.15, 0.01, 0.02)],
-    touching: [(0, 0, 0.02), (0.05, 0, 0.02), (0.05, 0.05, 0.02)],
+    touching: [(0, 0, 0.02), (0.03, 0, 0.02), (0.03, 0.03, 0.02)],
     still: [(0, 0, 0.02), (0, 0, 0.06), (0.2, 0, 0.02)],
     packed: [(0.04, 0.04, 0.02), (-0.05, 0, 0.02), (0.05, -0.05, 0.02)],
     near: [(0.04, 0, 0.02), (-0.05, 0, 0.02)],
@@ -110,6 +110,7 @@ def test_a_margin_is_negative_where_the_goal_is_missed_and_only_there(judge, dat
 
 
 @goals
+@settings(suppress_health_check=[HealthCheck.filter_too_much])
 @given(data=st.data())
 def test_a_goal_stays_reached_when_one_object_is_shifted_by_less_than_the_margin(judge, data):
     blocks = placed(judge, data)
@@ -128,7 +129,7 @@ def test_a_goal_stays_reached_when_one_object_is_shifted_by_less_than_the_margin
 @goals
 def test_the_goals_have_margins_that_more_than_rounding_uses_up(judge):
     score = judge([(*spot, 0.0) for spot in GOALS[judge]])
-    assert score.reached or judge is touching
+    assert score.reached
     assert score.margin is not None
     assert abs(score.margin) > 1e-3
 

@@ -32,6 +32,12 @@ class Attempt:
         """Keep the smallest clearance."""
         self.note(clearance=least([self.telemetry.clearance, clearance]))
 
+    def note_hand(self, gripped: str | None = None) -> None:
+        """Keep the smallest clearance of the robot to what is beside it; what is above or below is tested
+        for contact, and no error on the level uses its distance up."""
+        found = self.scene.hand_clearances(gripped, self.settings.supporting)
+        self.note_clearance(least([*found.values()]))
+
     def stop(self, stage: Stage, contact: Clearance | None = None) -> NoReturn:
         """End the action at a stage, in contact with something or not."""
         self.note(ended=stage)

@@ -13,7 +13,7 @@ from proc3s_tabletop.engine.protocol import GripSimulation
 from proc3s_tabletop.robot import frames as poses
 from proc3s_tabletop.robot.frames import Frame, Held
 from proc3s_tabletop.robot.widths import too_wide
-from proc3s_tabletop.telemetry import Clearance, least
+from proc3s_tabletop.telemetry import Clearance
 
 
 def pick(attempt: Attempt, grasp: FloatArray, grips: GripSimulation) -> None:
@@ -24,7 +24,7 @@ def pick(attempt: Attempt, grasp: FloatArray, grips: GripSimulation) -> None:
     travel(attempt, line.q[0], "approach")
     follow(attempt, line.q[1:], "approach")
     near = attempt.scene.hand_clearances()
-    attempt.note_clearance(least([*near.values()]))
+    attempt.note_hand()
     name = between_fingers(attempt)
     # What neither the hand nor the object can reach, even through others, takes no part.
     touchable = [other for other, c in near.items() if c.distance < attempt.settings.stir]

@@ -12,7 +12,7 @@ from proc3s_tabletop.actions.outcome import compare, rest
 from proc3s_tabletop.engine.protocol import GripSimulation
 from proc3s_tabletop.engine.values import Touch, deepest
 from proc3s_tabletop.robot.frames import Frame
-from proc3s_tabletop.telemetry import Clearance, least
+from proc3s_tabletop.telemetry import Clearance
 
 
 class Obstruction(NamedTuple):
@@ -136,7 +136,7 @@ def release(
     scene, robot = attempt.scene, attempt.scene.robot
     scene.held = None
     baseline = scene.frames()
-    attempt.note_clearance(least([*scene.hand_clearances(name).values()]))
+    attempt.note_hand(name)
     open_fingers(attempt, stand, name)
     above = line.q[line.heights > stand.height + 1e-9][::-1]
     follow(attempt, np.vstack([stand.q, above]), "release")
@@ -149,7 +149,7 @@ def release(
 
 def open_fingers(attempt: Attempt, stand: Stand, name: str) -> None:
     """Open to the width of the object and a margin, looking half-way and at the end."""
-    scene, robot = attempt.scene, attempt.scene.robot
+    robot = attempt.scene.robot
     gap = robot.gap()
     closed, opened = robot.angle, robot.angle_for(gap + 2 * attempt.settings.open_margin)
     attempt.note(finger_gap=gap)
@@ -159,4 +159,4 @@ def open_fingers(attempt: Attempt, stand: Stand, name: str) -> None:
         found = contact(attempt, gripped)
         if found:
             attempt.stop("release", found)
-    attempt.note_clearance(least([*scene.hand_clearances(name).values()]))
+    attempt.note_hand(name)

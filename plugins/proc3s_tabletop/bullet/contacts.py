@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from proc3s_tabletop.bullet.simulation import TableScene
-from proc3s_tabletop.engine.values import Touch
+from proc3s_tabletop.engine.values import ANY, Touch
 from proc3s_tabletop.telemetry import Clearance, least
 
 # Where PyBullet's contact points have what.
@@ -45,8 +45,13 @@ def grip_force(scene: TableScene, name: str) -> float:
     return min(float(sum(p[FORCE] for p in points if p[LINK_A] in side)) for side in scene.robot.sides)
 
 
-def hand_clearances(scene: TableScene, gripped: str | None = None) -> dict[str, Clearance]:
-    """The smallest distance of the robot to everything near but the gripped object, by name."""
+def hand_clearances(
+    scene: TableScene, gripped: str | None = None, steepest: float = ANY
+) -> dict[str, Clearance]:
+    """The smallest distance of the robot to everything near but the gripped object, by name.
+
+    Directions with an upward part of more than `steepest` do not count.
+    """
     robot, found = scene.robot, {}
     for other, name in scene.named.items():
         if name != gripped:
@@ -55,7 +60,7 @@ def hand_clearances(scene: TableScene, gripped: str | None = None) -> dict[str, 
                 [
                     Clearance(p[DISTANCE], robot.part(p[LINK_A]), name)
                     for p in points
-                    if p[LINK_A] > robot.base
+                    if p[LINK_A] > robot.base and abs(p[NORMAL][2]) <= steepest
                 ]
             )
             if clearance:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from proc3s import FloatArray
 from proc3s_tabletop.engine.snapshot import Snapshot
-from proc3s_tabletop.engine.values import Grip, Lies, Rest, Touch
+from proc3s_tabletop.engine.values import ANY, Grip, Lies, Rest, Touch
 from proc3s_tabletop.objects.body import Body
 from proc3s_tabletop.robot.frames import Frame, Held
 from proc3s_tabletop.robot.hand_profile import HandProfile
@@ -206,8 +206,11 @@ class Simulation(TableSimulation, Protocol):
     def held_touches(self, name: str) -> list[Touch]:
         """What an object in hand touches, the robot apart."""
 
-    def hand_clearances(self, gripped: str | None = None) -> dict[str, Clearance]:
-        """The smallest distance of the robot to everything near but the gripped object, by name."""
+    def hand_clearances(self, gripped: str | None = None, steepest: float = ANY) -> dict[str, Clearance]:
+        """The smallest distance of the robot to everything near but the gripped object, by name.
+
+        Directions with an upward part of more than `steepest` do not count.
+        """
 
     def beside(self, name: str, other: str, most: float) -> float | None:
         """The smallest distance of two objects of which one is beside the other, not above it, m; None where

@@ -1,5 +1,6 @@
 """Questions to simulations and their answers, as plain data."""
 
+import math
 from dataclasses import dataclass
 from typing import NamedTuple, TypeAlias
 
@@ -12,6 +13,10 @@ Lies: TypeAlias = tuple[tuple[Body, Frame], ...]
 
 ALOFT = Frame((0.0, 0.0, 1.0), (1.0, 0.0, 0.0, 0.0))
 """Where the hand touches nothing."""
+
+
+ANY = math.inf
+"""A bound of upward parts of directions that leaves none out; rounded ones may be a little over one."""
 
 
 class Touch(NamedTuple):
