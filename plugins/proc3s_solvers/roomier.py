@@ -24,7 +24,10 @@ class RoomierOptions(BaseModel):
 
 
 class Roomier(BatchSearch):
-    """Evolves a normal distribution around the best trial that it was told first; anew where it has ended."""
+    """Evolves a normal distribution around the best trial that it was told first; anew where it has ended.
+
+    It gives up where a generation does not change the room: then no parameter moves what is tightest.
+    """
 
     def __init__(self, space: Space, budget: int, rng: np.random.Generator, options: RoomierOptions) -> None:
         super().__init__()
@@ -39,11 +42,13 @@ class Roomier(BatchSearch):
             super().tell(trials)
 
     def _search(self) -> Batches[None]:
+        while (yield from self._run()):
+            pass
         while True:
-            yield from self._run()
+            yield np.empty((0, self._dim))
 
-    def _run(self) -> Batches[None]:
-        """A run of the strategy, to its end."""
+    def _run(self) -> Batches[bool]:
+        """A run of the strategy, to its end; False to give up."""
         assert self._best is not None, "it is to be told where to begin"
         options = self._options
         strategy = evolution(np.array(self._best.u), options.sigma, options.population, self._rng)
@@ -51,7 +56,11 @@ class Roomier(BatchSearch):
             asked = strategy.ask()
             trials = yield np.clip(np.array(asked)[:, : self._dim], 0.0, BELOW_ONE)
             strategy.tell(asked, [loss(trial) for trial in trials])
+            rooms = {trial.room for trial in trials if trial.accepted}
+            if rooms == {self._best.room}:
+                return False
             self._best = min([self._best, *trials], key=loss)
+        return True
 
 
 def loss(trial: Trial) -> float:

@@ -1,13 +1,14 @@
 """The field test carries plans out in several engines with several errors, and says how often they hold."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
 
 from proc3s.benchmark.execution_test import FieldTest
-from proc3s.suites.hold_rates import chart, hold_rates
+from proc3s.suites.hold_rates import by_room, chart, hold_rates
 
 PLUGIN = Path(__file__).parents[1] / "support/pegs/domain.yaml"
 AIM = ("--tasks", "pegs/middle.aim", "--plugin", PLUGIN)
@@ -25,9 +26,11 @@ def test_plans_of_programs_are_carried_out_in_each_engine_with_each_error(bench,
     result = bench(*AIM, "--engines", "felt,ice", "--error", "0,2,8", "--seeds", 2, "--times", 5)
     assert result.code == 0, result.stderr
     document = json.loads((here / "field/results.json").read_text())
-    keys = [(t["seed"], t["robust"], t["engine"], t["error_mm"], t["times"]) for t in document["tests"]]
+    names = ("seed", "robust", "improve", "engine", "error_mm", "times")
+    keys = [tuple(test[name] for name in names) for test in document["tests"]]
     conditions = [(e, mm, 5 if mm else 1) for e in ("felt", "ice") for mm in (0.0, 2.0, 8.0)]
-    assert keys == [(seed, robust, *each) for seed in (0, 1) for robust in (0, 2) for each in conditions]
+    ways = ((0, 0), (2, 24))
+    assert keys == [(seed, *way, *each) for seed in (0, 1) for way in ways for each in conditions]
     rows = {(r["program"], r["rehearsals"], r["engine"], r["error_mm"]): r for r in document["rows"]}
     assert len(rows) == len(document["rows"]) == 2 * 2 * 6
     held = {mm: rows["all", 0, "felt", mm]["satisfied"] for mm in (0.0, 2.0)}
@@ -37,6 +40,7 @@ def test_plans_of_programs_are_carried_out_in_each_engine_with_each_error(bench,
     assert lines[1].split() == [
         "program",
         "robust",
+        "improve",
         "engine",
         "mm",
         "plans",
@@ -46,8 +50,22 @@ def test_plans_of_programs_are_carried_out_in_each_engine_with_each_error(bench,
         "%",
         "interval",
     ]
-    assert lines[2].split() == ["pegs/middle.aim", "0", "felt", "0", "2", "2/2", "100", "34", "to", "100"]
-    assert result.stderr.splitlines()[0] == "[1/24] pegs/middle.aim seed 0, felt, 0 mm: 1 of 1 hold"
+    assert lines[2].split() == [
+        "pegs/middle.aim",
+        "0",
+        "0",
+        "felt",
+        "0",
+        "2",
+        "2/2",
+        "100",
+        "34",
+        "to",
+        "100",
+    ]
+    assert (
+        result.stderr.splitlines()[0] == "[1/24] pegs/middle.aim seed 0, room 500.0, felt, 0 mm: 1 of 1 hold"
+    )
     assert ElementTree.parse(here / "field/hold_rates.svg").getroot().tag.endswith("svg")
 
 
@@ -61,7 +79,7 @@ def test_the_same_field_test_gives_the_same_counts(bench):
 def test_without_errors_or_engines_it_is_the_field_test_with_disturbances(bench, here):
     result = bench(*AIM, "--seeds", 1, "--times", 3)
     assert result.stdout.splitlines()[1].split() == [
-        *("program", "rehearsals", "solved", "samples", "satisfied", "share")
+        *("program", "rehearsals", "improve", "solved", "samples", "satisfied", "share")
     ]
     tests = json.loads((here / "field/results.json").read_text())["tests"]
     assert [(test["error_mm"], test["satisfied"]) for test in tests] == [(None, 3), (None, 3)]
@@ -85,7 +103,7 @@ def test_the_plans_of_runs_are_taken_as_they_are(bench, runs):
     assert result.code == 0, result.stderr
     assert "2 of 4 runs are left out: no accepted plan" in result.stderr
     lines = [line.split() for line in result.stdout.splitlines()[2:6]]
-    assert [(line[0], line[3], line[5]) for line in lines] == [
+    assert [(line[0], line[4], line[6]) for line in lines] == [
         ("pegs/middle.proc3s", "0", "2/2"),
         ("pegs/middle.proc3s", "1", "4/4"),
         ("all", "0", "2/2"),
@@ -122,6 +140,7 @@ def test_a_plan_that_several_runs_have_counts_once_and_a_run_may_be_named_itself
         (("--runs", "nowhere", "--error", 1), "there is no folder nowhere"),
         (("--runs", ".", "--seeds", 2), "leave --seeds out"),
         (("--runs", ".", "--robust", 2), "leave --robust out"),
+        (("--runs", ".", "--improve", 2), "leave --improve out"),
         (("--runs", ".", "--tasks", "pegs"), "there is no run in ."),
     ],
 )
@@ -134,7 +153,7 @@ def test_what_cannot_be_tested_is_a_usage_error_in_a_line(bench, here, args, sai
 
 
 def made(engine, error_mm, satisfied, times=10, robust=0, case="a/b.c"):
-    return FieldTest(case, None, robust, 0, True, 5, 0, engine, error_mm, times, satisfied)
+    return FieldTest(case, None, robust, 0, 0, True, 5, 0, None, engine, error_mm, times, satisfied)
 
 
 def test_rates_pool_the_plans_of_a_program_and_those_of_all():
@@ -159,3 +178,11 @@ def test_a_chart_has_a_line_for_each_engine_and_number_of_rehearsals_and_none_wi
     assert len(chart(rates)) > len(chart(rates[:-2]))
     assert chart(hold_rates([made("one", None, 9)])) is None
     assert chart(hold_rates([made("one", 1.0, 0, times=0)])) is None
+
+
+def test_rates_are_given_by_room_too():
+    roomy = replace(made("one", 2.0, 10), room=3.2)
+    tight = [replace(made("one", 2.0, held), room=room) for held, room in ((4, 0.2), (6, 0.4))]
+    unknown = made("one", 2.0, 1)
+    found = [(r.room, r.engine, r.error_mm, r.held, r.times) for r in by_room([roomy, *tight, unknown])]
+    assert found == [("0 to 0.5", "one", 2.0, 10, 20), ("3 and more", "one", 2.0, 10, 10)]

@@ -10,12 +10,13 @@ ANSWER = ("samples", "evaluations", "plan")
 
 
 def solved(problem, folder):
-    """What a run of a problem came to: samples, evaluations by the world, and the accepted plan."""
+    """What a run of a problem came to: samples, evaluations by the world, and the first accepted plan."""
     from typer.testing import CliRunner
 
     from proc3s.cli import app
 
-    options = [part for name in QUESTION[1:] for part in (f"--{name}", str(problem[name]))]
+    options = ["--improve", "0"]
+    options += [part for name in QUESTION[1:] for part in (f"--{name}", str(problem[name]))]
     if problem["llm"] == "recorded":
         options += ["-L", "stale=accept"]  # a prompt may change, what its program comes to may not
     done = CliRunner().invoke(app, ["run", problem["task"], *options, "--json", "--out", str(folder / "run")])

@@ -73,3 +73,20 @@ def test_a_solver_that_gives_up_ends_it(narrow, serial):
     improve(found, Walks(narrow).space, solver, 10, lambda u: iter(()))
     assert solver.told == [found.start]
     assert found.trials == []
+
+
+def test_what_no_parameter_changes_costs_one_generation(narrow, serial):
+    """The room of a plan that every sample has."""
+
+    class Stuck(Walks):
+        def plans(self, u, first):
+            return super().plans(np.tile(np.array(START) / 30, (len(u), 1)), first)
+
+    evaluator = Evaluator(narrow, Stuck(narrow), serial)
+    (start,) = evaluator.stream(np.array([START]) / 30)
+    found, space = Improvement(start), evaluator.sketch.space
+    improve(
+        found, space, Roomier(space, 24, np.random.default_rng(0), RoomierOptions()), 24, evaluator.stream
+    )
+    assert len(found.trials) == RoomierOptions().population
+    assert found.better == []

@@ -1,5 +1,6 @@
 """How often plans hold: counts of field tests with Wilson's intervals, as rows and as a chart."""
 
+from bisect import bisect
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
@@ -14,6 +15,8 @@ from proc3s.suites.statistics import Estimate, wilson
 from proc3s.wording import count
 
 ALL = "all"
+ROOMS = (0.5, 1.0, 2.0, 3.0)
+"""Ends of the intervals of room that are told apart."""
 
 
 @dataclass(frozen=True)
@@ -65,6 +68,30 @@ def _grouped(named: Iterable[tuple[str, FieldTest]]) -> list[HoldRate]:
         key = (name, test.robust, test.improve, test.engine, test.error_mm)
         groups.setdefault(key, []).append(test)
     return [HoldRate(*key, tuple(tests)) for key, tests in groups.items()]
+
+
+@dataclass(frozen=True)
+class RoomRate(HoldRate):
+    """The field tests of plans whose room is in an interval, in an engine, with an error."""
+
+    room: str = ""
+
+
+def by_room(done: Sequence[FieldTest]) -> list[RoomRate]:
+    """How often plans hold by their room: one for every interval, engine and error; without those of which
+    no room is known."""
+    groups: dict[tuple[int, str | None, float | None], list[FieldTest]] = {}
+    for test in done:
+        if test.solved and test.room is not None:
+            groups.setdefault((bisect(ROOMS, test.room), test.engine, test.error_mm), []).append(test)
+    keys = sorted(groups, key=lambda key: (key[0], key[1] or "", key[2] or 0.0))
+    return [RoomRate(ALL, 0, 0, e, mm, tuple(groups[k, e, mm]), _interval(k)) for k, e, mm in keys]
+
+
+def _interval(k: int) -> str:
+    if k == len(ROOMS):
+        return f"{ROOMS[-1]:g} and more"
+    return f"{ROOMS[k - 1] if k else 0:g} to {ROOMS[k]:g}"
 
 
 def chart(rates: Sequence[HoldRate]) -> str | None:

@@ -23,7 +23,7 @@ from proc3s.planning.repetition import require_error
 from proc3s.plugins.registry import Registry, open_registry
 from proc3s.plugins.versions import versions
 from proc3s.runs.reading import LOG
-from proc3s.suites.hold_rates import HoldRate, chart, hold_rates
+from proc3s.suites.hold_rates import HoldRate, RoomRate, by_room, chart, hold_rates
 from proc3s.suites.lock import alone_in
 from proc3s.wording import count
 
@@ -79,7 +79,7 @@ def run_field_test(wanted: FieldTestWanted, out: Path | None, as_json: bool) -> 
             write(folder / CHART, drawn)
         deliver(folder, _document(wanted, done, rates, stopped), as_json)
         if not as_json:
-            _print(rates, folder, wanted.compares)
+            _print(rates, by_room(done), folder, wanted.compares)
     if stopped is not None:
         raise stopped
 
@@ -181,6 +181,7 @@ def _document(
         "versions": versions(),
         "error": str(error) if error else None,
         "rows": [_row(rate) for rate in rates],
+        "rooms": [{"room": rate.room, **_row(rate)} for rate in by_room(done)],
         "tests": [asdict(test) for test in done],
     }
 
@@ -201,10 +202,13 @@ def _row(one: HoldRate) -> dict[str, Any]:
     }
 
 
-def _print(rates: Sequence[HoldRate], folder: Path, compares: bool) -> None:
+def _print(rates: Sequence[HoldRate], rooms: Sequence[RoomRate], folder: Path, compares: bool) -> None:
     console = Console(highlight=False)
     console.print("Plans carried out with small errors")
     print_table(console, *_compared(rates) if compares else _plain(rates), keys=2)
+    if rooms:
+        console.print("By room")
+        print_table(console, ("room", *_HELD), [[one.room, *_held(one)] for one in rooms], keys=1)
     console.print(f"folder   {folder}", soft_wrap=True)
 
 
@@ -217,17 +221,21 @@ def _plain(rates: Sequence[HoldRate]) -> tuple[Sequence[str], list[list[str]]]:
     ]
 
 
+_HELD = ("engine", "mm", "plans", "held", "%", "95 % interval")
+
+
 def _compared(rates: Sequence[HoldRate]) -> tuple[Sequence[str], list[list[str]]]:
     """How often plans hold in each engine with each error."""
-    head = ("program", "robust", "improve", "engine", "mm", "plans", "held", "%", "95 % interval")
-    lines = [
-        [
-            *(one.program, str(one.rehearsals), str(one.improve), one.engine or ""),
-            "" if one.error_mm is None else f"{one.error_mm:g}",
-            *(str(one.plans), f"{one.held}/{one.times}"),
-            f"{100 * one.rate.value:.0f}" if one.rate else "",
-            f"{100 * one.rate.low:.0f} to {100 * one.rate.high:.0f}" if one.rate else "",
-        ]
-        for one in rates
+    head = ("program", "robust", "improve", *_HELD)
+    return head, [[one.program, str(one.rehearsals), str(one.improve), *_held(one)] for one in rates]
+
+
+def _held(one: HoldRate) -> list[str]:
+    """Engine, error, and how often plans hold."""
+    return [
+        one.engine or "",
+        "" if one.error_mm is None else f"{one.error_mm:g}",
+        *(str(one.plans), f"{one.held}/{one.times}"),
+        f"{100 * one.rate.value:.0f}" if one.rate else "",
+        f"{100 * one.rate.low:.0f} to {100 * one.rate.high:.0f}" if one.rate else "",
     ]
-    return head, lines
