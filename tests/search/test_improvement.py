@@ -20,7 +20,7 @@ START = (5.9, 7.0, 6.0, 0.5, 0.5)
 def narrow(problem):
     """A problem in which a metre is what is to be expected."""
     made = problem()
-    spec = made.domain.spec.model_copy(update={"errors": ErrorsSpec(placed=1.0)})
+    spec = made.domain.spec.model_copy(update={"errors": ErrorsSpec(picked=0.0, placed=1.0)})
     return dataclasses.replace(made, domain=dataclasses.replace(made.domain, spec=spec))
 
 
@@ -48,7 +48,7 @@ def test_no_more_samples_are_tried_than_wanted(narrow, serial):
 
 
 def test_it_ends_where_there_is_room_enough(narrow, serial):
-    spec = narrow.domain.spec.model_copy(update={"errors": ErrorsSpec(placed=0.1)})
+    spec = narrow.domain.spec.model_copy(update={"errors": ErrorsSpec(picked=0.0, placed=0.1)})
     easy = dataclasses.replace(narrow, domain=dataclasses.replace(narrow.domain, spec=spec))
     found = improved(easy, serial)
     assert found.most >= ENOUGH

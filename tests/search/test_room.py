@@ -36,7 +36,7 @@ def trial_of(problem, plan=PLAN):
 
 @pytest.mark.parametrize("prefixes", [True, False])
 def test_it_is_the_smallest_margin_over_the_expected_error(problem, prefixes):
-    room = trial_of(changed(problem(prefixes=prefixes), errors=ErrorsSpec(placed=0.5))).room
+    room = trial_of(changed(problem(prefixes=prefixes), errors=ErrorsSpec(picked=0.0, placed=0.5))).room
     assert (room.value, room.constraint, room.step, room.margin) == (4.0, "no_pit", 0, 2.0)
     assert str(room) == "4.0, at step 0: no_pit by 2"
 
@@ -48,7 +48,7 @@ def test_a_skill_names_the_error_that_its_margins_are_used_up_by(problem):
 
 
 def test_a_constraint_that_is_yes_or_no_leaves_no_room_and_takes_none(problem):
-    made = changed(problem(), errors=ErrorsSpec(placed=1.0))
+    made = changed(problem(), errors=ErrorsSpec(picked=0.0, placed=1.0))
     made = with_constraint(made, "no_pit", error="none")
     room = trial_of(made).room
     assert (room.constraint, room.step, room.value) == ("on_line", 1, 86.0)
@@ -62,7 +62,7 @@ def test_a_bool_is_yes_or_no(problem):
 
 def test_judges_have_a_margin_too_where_the_goal_counts(problem):
     judge = (Target(target="walk:near", args={"place": 14.0, "reach": 1.5}),)
-    made = changed(problem(check_goal=True), errors=ErrorsSpec(placed=1.0))
+    made = changed(problem(check_goal=True), errors=ErrorsSpec(picked=0.0, placed=1.0))
     made = dataclasses.replace(made, task=made.task.model_copy(update={"judge": judge}))
     room = trial_of(made).room
     assert (room.constraint, room.step, room.value) == ("goal", None, 1.5)
@@ -77,7 +77,7 @@ def test_a_plan_that_is_refused_has_no_room_to_speak_of(problem):
 
 
 def test_room_does_not_depend_on_the_process(problem, one):
-    made = changed(problem(), errors=ErrorsSpec(placed=0.5))
+    made = changed(problem(), errors=ErrorsSpec(picked=0.0, placed=0.5))
     (there,) = one.map(made, [PLAN])
     assert there.room == trial_of(made).room
 

@@ -40,10 +40,10 @@ def room_at(
 
 
 def room_at_goal(domain: Domain, margin: float | None, reason: str) -> Room | None:
-    """What the judges leave, whose margin the error of what is placed uses up."""
+    """What the judges leave, whose margin the errors of what is placed use up."""
     if margin is None or not math.isfinite(margin):
         return None
-    return Room(max(margin, 0.0) / domain.spec.errors.placed, GOAL, None, margin, reason)
+    return Room(max(margin, 0.0) / domain.spec.errors.of_placed, GOAL, None, margin, reason)
 
 
 def tightest(*rooms: Room | None) -> Room | None:
@@ -54,8 +54,14 @@ def tightest(*rooms: Room | None) -> Room | None:
 
 def expected_error(domain: Domain, constraint: str, skill: str) -> float | None:
     """The error that uses up the margin of a constraint at a step with a skill; None: it is yes or no."""
-    kind = domain.spec.constraints[constraint].error
+    kind = domain.spec.constraints[constraint].error or domain.spec.skills[skill].error
     if kind == "none":
         return None
-    named: float = getattr(domain.spec.errors, kind or domain.spec.skills[skill].error)
-    return named
+    errors = domain.spec.errors
+    known = {
+        "picked": errors.picked,
+        "placed": errors.of_placed,
+        "turn": errors.turn,
+        "speed": errors.speed,
+    }
+    return known[kind]

@@ -141,7 +141,7 @@ class SkillSpec(Target):
     domains: tuple[str, ...] = ()
     """Domains that a plugin's skill attaches to by itself; `*` is every domain."""
     error: Literal["picked", "placed"] = "placed"
-    """Which of the domain's `errors` uses up the margins of its steps."""
+    """Which of the domain's `errors` uses up the margins of its steps; `placed` is both together."""
 
 
 class SamplerSpec(Target):
@@ -213,14 +213,19 @@ class ErrorsSpec(Spec):
     The defaults are those of a calibrated arm and camera, with positions in metres.
     """
 
-    picked: float = Field(0.001, gt=0)
-    """Of where a thing that is picked stands."""
+    picked: float = Field(0.001, ge=0)
+    """Of where a thing that is picked stands; it is off by as much in the hand."""
     placed: float = Field(0.001, gt=0)
-    """Of where a thing is put down."""
+    """Of where the hand puts it down, beside that."""
     turn: float = Field(math.radians(0.5), gt=0)
     """Of how a thing is turned, rad."""
     speed: float = Field(0.05, gt=0)
     """Of the speed of a motion, as a share of it."""
+
+    @property
+    def of_placed(self) -> float:
+        """Of where a thing is once it is put down: it was picked before."""
+        return self.picked + self.placed
 
 
 class TaskSpec(Spec):
