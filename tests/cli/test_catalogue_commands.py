@@ -53,7 +53,7 @@ def test_a_list_as_json(cli):
     rows = cli("list", "--json").json
     assert set(rows["tasks"]) == TASKS
     assert len(rows["methods"]) == 7
-    assert set(rows["solvers"]) == {"rejection", "gaussian", "backtracking", "cma", "portfolio"}
+    assert set(rows["solvers"]) == {"rejection", "gaussian", "backtracking", "cma", "portfolio", "roomier"}
     assert set(rows["llms"]) == {"replay", "recorded", "manual", "stub", "litellm"}
     assert set(rows["presets"]) == {"paper", "release", "best"}
     assert all(isinstance(summary, str) and summary for kind in rows.values() for summary in kind.values())
