@@ -11,6 +11,7 @@ import numpy as np
 
 from proc3s import Action, Plan, SpecError, State, Transition, World
 from proc3s.errors import Issue
+from proc3s.specs.domain import ErrorsSpec
 from proc3s.wording import count
 from proc3s_tabletop.actions.disturbances import Disturbance
 from proc3s_tabletop.actions.execution import Execution
@@ -68,14 +69,18 @@ class TabletopWorld(World[Telemetry]):
         super().__init__(domain)
         self.engine = engine
         self.speed = speed
-        changed = {} if placement_error is None else {"placed": placement_error}
-        self.errors = domain.spec.errors.model_copy(update=changed)
+        self._errors = {} if placement_error is None else {"placed": placement_error}
         self.categories = bodies_of(bodies)
         self._bodies: dict[str, Body] = {}
         self._table: Table | None = None
         self._film: list[Snapshot] = []
         self._disturbance: Disturbance | None = None
         self._misplacement: Misplacement | None = None
+
+    @property
+    def errors(self) -> ErrorsSpec:
+        """What is to be expected: the errors of the domain, but for what this world was given."""
+        return self.domain.spec.errors.model_copy(update=self._errors)
 
     def disturb(self, rng: np.random.Generator | None, corner: int | None = None) -> None:
         """From the next reset on, arm and fingers are a little faster or slower, objects stand a little off

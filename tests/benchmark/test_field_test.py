@@ -64,7 +64,7 @@ def test_plans_of_programs_are_carried_out_in_each_engine_with_each_error(bench,
         "100",
     ]
     assert (
-        result.stderr.splitlines()[0] == "[1/24] pegs/middle.aim seed 0, room 500.0, felt, 0 mm: 1 of 1 hold"
+        result.stderr.splitlines()[0] == "[1/24] pegs/middle.aim seed 0, room 250.0, felt, 0 mm: 1 of 1 hold"
     )
     assert ElementTree.parse(here / "field/hold_rates.svg").getroot().tag.endswith("svg")
 
