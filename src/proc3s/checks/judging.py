@@ -105,6 +105,7 @@ def _options(subject: Subject, answer: BundledAnswer) -> RunOptions:
             "seed": answer.problem.seed,
             "plugins": subject.registry.plugins.files,
             "feedback": 0,
+            "improve": 0,
             "limits": {"round": str(SECONDS)},
         }
     )
