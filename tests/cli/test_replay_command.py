@@ -143,7 +143,7 @@ def test_a_run_that_was_cut_off_anywhere_can_be_read(cli, here, keep):
     cli("run", "drawing/star", "--out", "first")
     whole = (here / "first/events.jsonl").read_bytes()
     lines = whole.splitlines(keepends=True)
-    assert len(lines) == 9
+    assert len(lines) == 10
     (here / "cut").mkdir()
     (here / "cut/events.jsonl").write_bytes(b"".join(lines[:keep]) + lines[keep][:25])
     result = cli("replay", "cut", "--json")

@@ -83,6 +83,7 @@ def carry_out(
             longer = Prefix(world.snapshot, state, tuple(margins), room)
             prefixes.keep(known, plan[step], longer)
             known = longer
+    room = None if violations else room
     return Trial(plan, tuple(violations), reached, tuple(margins), room=room), state
 
 

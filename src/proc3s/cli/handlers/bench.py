@@ -110,13 +110,18 @@ def deliver(folder: Path, document: Mapping[str, Any], as_json: bool) -> None:
         print_document(text)
 
 
+def _searching(registry: Registry) -> list[str]:
+    """The solvers that look for an accepted plan."""
+    return [name for name, spec in registry.all(SolverSpec).items() if spec.objective == "progress"]
+
+
 def _chosen(registry: Registry, wanted: SearchesWanted) -> tuple[list[Case], list[SearchVariant]]:
     """The cases and ways that are wanted. Raises UsageError for names that do not exist."""
     registry.get(ExecutorSpec, wanted.executor)
     solvers = [registry.get(SolverSpec, name).name for name in wanted.solvers]
     ways = [
         SearchVariant(solver, solver, wanted.executor, wanted.jobs)
-        for solver in dict.fromkeys(solvers or registry.all(SolverSpec))
+        for solver in dict.fromkeys(solvers or _searching(registry))
     ]
     if wanted.jobs > 1:
         plain = f"{PLAIN.name}, {wanted.jobs} jobs"

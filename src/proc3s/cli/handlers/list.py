@@ -100,7 +100,7 @@ def _describe(registry: Registry, spec: Spec) -> Iterator[str]:
         value = getattr(spec, field)
         if field not in ("name", "args", "options", "check") and value not in ((), {}, None, ""):
             yield f"  {field:10} {escape(_text(value))}"
-    if isinstance(spec, SolverSpec | LLMSpec):
+    if isinstance(spec, LLMSpec) or (isinstance(spec, SolverSpec) and spec.objective == "progress"):
         yield from _describe_options(spec)
 
 
