@@ -1,6 +1,7 @@
 import pytest
 
 from proc3s import Trial, Violation
+from proc3s.domain.room import Room
 from proc3s.domain.values import Action
 from proc3s.feedback.diagnosis import diagnose
 from proc3s.sandbox import SketchContractError, SketchIssue, SketchRuntimeError, SketchTimeout
@@ -100,3 +101,11 @@ def test_a_diagnosis_survives_json():
 
     diagnosis = diagnose([failed(0, "a"), broke("oops", 2)], SketchTimeout("slow", 1, "x"))
     assert Diagnosis.model_validate_json(diagnosis.model_dump_json()) == diagnosis
+
+
+def test_plans_that_only_a_rehearsal_refused_name_the_most_room_that_one_has():
+    told = Violation("rehearsal", 2, "slide", -1.0, "rehearsed: fell")
+    rooms = [Room(value, "on_wire", 1, value / 1000) for value in (0.2, 0.7, 0.4)]
+    diagnosis = diagnose([Trial(PLAN, (told,), 2, room=room) for room in rooms] + [failed(0, "a")])
+    rehearsal, on_wire = diagnosis.constraints
+    assert (rehearsal.room, on_wire.room) == ("0.7, at step 1: on_wire by 0.0007", "")

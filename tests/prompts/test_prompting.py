@@ -5,7 +5,7 @@ import pytest
 import proc3s_templates
 import toy_world
 from proc3s import MethodSpec, PresetSpec, SpecError, UsageError
-from proc3s.feedback.report import Diagnosis, Failure
+from proc3s.feedback.report import ConstraintReport, Diagnosis, Failure
 from proc3s.prompts.conversation import Exchange, conversation
 from proc3s.prompts.prompter import Prompter
 from proc3s.prompts.text import state_text
@@ -183,6 +183,16 @@ def test_feedback_names_the_two_commonest_failures_without_counts(problem):
     assert "third" not in text
     assert "%" not in text
     assert "50" not in text
+
+
+def test_feedback_names_the_room_of_plans_that_only_a_rehearsal_refused(problem):
+    method = MethodSpec(name="m", summary="", template="proc3s", answer="sketch")
+    graded = PresetSpec(name="best", summary="", budget="paper", feedback="graded")
+    told = {"constraint": "rehearsal", "share": 100, "steps": (2,), "texts": ("fell",), "best_margin": -1.0}
+    report = ConstraintReport(**told, room="0.4, at step 1: it passes the pit")
+    diagnosis = Diagnosis(samples=10, failures=(violation(2, "fell"),), constraints=(report,))
+    text = Prompter(method, graded, (BUILT_IN,)).feedback(problem, diagnosis).text
+    assert "the most room that one has, in expected errors, is 0.4, at step 1: it passes the pit.\n" in text
 
 
 def test_feedback_quotes_the_line_of_an_error(problem):

@@ -47,6 +47,7 @@ def test_a_plan_must_pass_its_rehearsals(shaky):
     assert close.violations[0].constraint == "rehearsal"
     assert close.violations[0].text == "rehearsed: fell into pit 0"
     assert (close.violations[0].step, close.reached) == (0, 0)
+    assert close.room
     assert (falls.violations[0].constraint, falls.rehearsals) == ("no_pit", 0)
 
 

@@ -5,7 +5,6 @@ from collections import Counter, defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from proc3s.domain.margins import Violation
 from proc3s.domain.samplers import Space
 from proc3s.feedback.circumstances import circumstances
 from proc3s.feedback.parameters import bound_hits, separations
@@ -116,23 +115,31 @@ def _first_failure(trial: Trial) -> Failure:
     return Failure(kind=error.kind, text=error.message, line=error.line, source=error.source, share=0)
 
 
-def _by_constraint(failed: Sequence[_Failed], samples: int, room: int) -> tuple[ConstraintReport, ...]:
-    found: defaultdict[str, list[tuple[Violation, float]]] = defaultdict(list)
+def _by_constraint(failed: Sequence[_Failed], samples: int, left: int) -> tuple[ConstraintReport, ...]:
+    found: defaultdict[str, list[_Failed]] = defaultdict(list)
     for one in failed:
         if one.trial.violations:
-            found[one.trial.violations[0].constraint].append((one.trial.violations[0], one.weight))
-    percents = shares([sum(weight for _, weight in told) for told in found.values()], samples, room)
+            found[one.trial.violations[0].constraint].append(one)
+    percents = shares([sum(one.weight for one in group) for group in found.values()], samples, left)
     reports = [
-        ConstraintReport(
-            constraint=name,
-            share=share,
-            steps=tuple(sorted({violation.step for violation, _ in told})),
-            texts=tuple(text for text, _ in Counter(v.text for v, _ in told).most_common(_TEXTS)),
-            best_margin=max(violation.margin for violation, _ in told),
-        )
-        for (name, told), share in zip(found.items(), percents, strict=True)
+        _report(name, [one.trial for one in group], share)
+        for (name, group), share in zip(found.items(), percents, strict=True)
     ]
     return tuple(sorted(reports, key=lambda report: (-report.share, report.constraint)))
+
+
+def _report(constraint: str, trials: Sequence[Trial], share: int) -> ConstraintReport:
+    """What the trials that a constraint refused have in common."""
+    told = [trial.violations[0] for trial in trials]
+    roomiest = max((trial.room for trial in trials if trial.room), key=lambda room: room.value, default=None)
+    return ConstraintReport(
+        constraint=constraint,
+        share=share,
+        steps=tuple(sorted({violation.step for violation in told})),
+        texts=tuple(text for text, _ in Counter(v.text for v in told).most_common(_TEXTS)),
+        best_margin=max(violation.margin for violation in told),
+        room=str(roomiest) if roomiest else "",
+    )
 
 
 def _program_errors(error: SketchError, samples: int) -> tuple[Failure, ...]:

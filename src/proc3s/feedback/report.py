@@ -51,6 +51,8 @@ class ConstraintReport(BaseModel):
     """Its commonest sentences."""
     best_margin: float
     """The margin of the nearest miss, in the constraint's unit; negative."""
+    room: str = ""
+    """Of plans that only a rehearsal refused: the most that one of them has without errors, and where."""
 
 
 class Diagnosis(BaseModel):

@@ -14,8 +14,8 @@ class Trial:
 
     `reached` counts the steps before the first violation. `margins` holds, per step that was carried
     out, the margin of every constraint that applies, in its unit; `room` is the tightest of them and of the
-    goal, if it was looked at, of an accepted plan. `screen` names the screen that rejected the plan.
-    `rehearsals` counts those of the plan, `index` the samples of a problem from 0.
+    goal, if it was looked at, of a plan that is accepted without errors. `screen` names the screen that
+    rejected the plan. `rehearsals` counts those of the plan, `index` the samples of a problem from 0.
     """
 
     plan: Plan | None = None
