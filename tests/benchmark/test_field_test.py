@@ -8,7 +8,8 @@ from xml.etree import ElementTree
 import pytest
 
 from proc3s.benchmark.execution_test import FieldTest
-from proc3s.suites.hold_rates import by_room, chart, hold_rates
+from proc3s.suites.hold_rates import chart, hold_rates
+from proc3s.suites.room_rates import room_chart, room_rates
 
 PLUGIN = Path(__file__).parents[1] / "support/pegs/domain.yaml"
 AIM = ("--tasks", "pegs/middle.aim", "--plugin", PLUGIN)
@@ -180,9 +181,19 @@ def test_a_chart_has_a_line_for_each_engine_and_number_of_rehearsals_and_none_wi
     assert chart(hold_rates([made("one", 1.0, 0, times=0)])) is None
 
 
-def test_rates_are_given_by_room_too():
+def test_rates_are_given_by_room_too_and_a_plan_that_was_not_improved_counts_once():
     roomy = replace(made("one", 2.0, 10), room=3.2)
-    tight = [replace(made("one", 2.0, held), room=room) for held, room in ((4, 0.2), (6, 0.4))]
+    tight = [
+        replace(made("one", 2.0, held), room=room, seed=k) for k, held, room in ((0, 4, 0.2), (1, 6, 0.4))
+    ]
     unknown = made("one", 2.0, 1)
-    found = [(r.room, r.engine, r.error_mm, r.held, r.times) for r in by_room([roomy, *tight, unknown])]
+    rates = room_rates([roomy, replace(roomy, robust=2, improve=24), *tight, unknown])
+    found = [(r.room, r.engine, r.error_mm, r.held, r.times) for r in rates]
     assert found == [("0 to 0.5", "one", 2.0, 10, 20), ("3 and more", "one", 2.0, 10, 10)]
+    assert [rates[0].of_seeds(odd).held for odd in (False, True)] == [4, 6]
+
+
+def test_a_chart_has_the_rates_over_the_room_of_even_and_odd_seeds():
+    tests = [replace(made("one", 2.0, 10), room=room, seed=k) for k, room in enumerate((0.2, 3.1, 1.4))]
+    assert len(room_chart(room_rates(tests))) > len(room_chart(room_rates(tests[:1])))
+    assert room_chart(room_rates([made("one", 2.0, 9)])) is None

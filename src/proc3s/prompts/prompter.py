@@ -45,7 +45,9 @@ class Prompter:
         """Render every template once, so that a mistake in one shows before an LLM is asked."""
         failure = Failure(kind="rehearsal", text="", step=0, skill="", line=1, source="", share=100)
         error = failure.model_copy(update={"step": None})
-        report = ConstraintReport(constraint="", share=100, steps=(0,), texts=("",), best_margin=-1.0, room=" ")
+        report = ConstraintReport(
+            constraint="", share=100, steps=(0,), texts=("",), best_margin=-1.0, room=" "
+        )
         failed = Diagnosis(
             samples=1,
             failures=(failure, error),

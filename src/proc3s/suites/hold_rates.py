@@ -1,8 +1,8 @@
 """How often plans hold: counts of field tests with Wilson's intervals, as rows and as a chart."""
 
-from bisect import bisect
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import matplotlib as mpl
 from matplotlib.axes import Axes
@@ -15,8 +15,6 @@ from proc3s.suites.statistics import Estimate, wilson
 from proc3s.wording import count
 
 ALL = "all"
-ROOMS = (0.5, 1.0, 2.0, 3.0)
-"""Ends of the intervals of room that are told apart."""
 
 
 @dataclass(frozen=True)
@@ -70,30 +68,6 @@ def _grouped(named: Iterable[tuple[str, FieldTest]]) -> list[HoldRate]:
     return [HoldRate(*key, tuple(tests)) for key, tests in groups.items()]
 
 
-@dataclass(frozen=True)
-class RoomRate(HoldRate):
-    """The field tests of plans whose room is in an interval, in an engine, with an error."""
-
-    room: str = ""
-
-
-def by_room(done: Sequence[FieldTest]) -> list[RoomRate]:
-    """How often plans hold by their room: one for every interval, engine and error; without those of which
-    no room is known."""
-    groups: dict[tuple[int, str | None, float | None], list[FieldTest]] = {}
-    for test in done:
-        if test.solved and test.room is not None:
-            groups.setdefault((bisect(ROOMS, test.room), test.engine, test.error_mm), []).append(test)
-    keys = sorted(groups, key=lambda key: (key[0], key[1] or "", key[2] or 0.0))
-    return [RoomRate(ALL, 0, 0, e, mm, tuple(groups[k, e, mm]), _interval(k)) for k, e, mm in keys]
-
-
-def _interval(k: int) -> str:
-    if k == len(ROOMS):
-        return f"{ROOMS[-1]:g} and more"
-    return f"{ROOMS[k - 1] if k else 0:g} to {ROOMS[k]:g}"
-
-
 def chart(rates: Sequence[HoldRate]) -> str | None:
     """Hold rates of all programs over the error as SVG, a line for each engine and number of rehearsals.
 
@@ -109,7 +83,7 @@ def chart(rates: Sequence[HoldRate]) -> str | None:
         figure = Figure(figsize=(6.2, 3.4), layout="constrained")
         axes = figure.subplots()
         for k, (name, color) in enumerate(colors_of([*lines]).items()):
-            _draw(axes, sorted(lines[name]), name, color, k - (len(lines) - 1) / 2)
+            draw(axes, sorted(lines[name]), name, color, k - (len(lines) - 1) / 2)
         axes.set_ylim(0, 104)
         axes.xaxis.set_major_locator(MaxNLocator(integer=True))
         axes.set_xlabel("largest error of stands and placements, mm (and half as many degrees)")
@@ -125,12 +99,15 @@ def _label(one: HoldRate) -> str:
     return ", ".join(part for part in parts if part)
 
 
-def _draw(axes: Axes, points: list[tuple[float, Estimate]], name: str, color: str, aside: float) -> None:
+def draw(
+    axes: Axes, points: list[tuple[float, Estimate]], name: str, color: str, aside: float, **style: Any
+) -> None:
     """A line with its intervals, a little aside, so that those of several lines can be told apart."""
-    apart = 0.012 * max(error for error, _ in points)
-    x = [error + aside * apart for error, _ in points]
+    if not points:
+        return
+    apart = 0.012 * max(at for at, _ in points)
+    x = [at + aside * apart for at, _ in points]
     y = [100 * rate.value for _, rate in points]
     away = [[100 * (r.value - r.low) for _, r in points], [100 * (r.high - r.value) for _, r in points]]
-    axes.errorbar(
-        x, y, yerr=away, color=color, label=name, marker="o", markersize=4, capsize=3, linewidth=1.2
-    )
+    looks = {"color": color, "label": name, "marker": "o", "markersize": 4, "capsize": 3, "linewidth": 1.2}
+    axes.errorbar(x, y, yerr=away, **{**looks, **style})

@@ -23,11 +23,12 @@ from proc3s.planning.repetition import require_error
 from proc3s.plugins.registry import Registry, open_registry
 from proc3s.plugins.versions import versions
 from proc3s.runs.reading import LOG
-from proc3s.suites.hold_rates import HoldRate, RoomRate, by_room, chart, hold_rates
+from proc3s.suites.hold_rates import HoldRate, chart, hold_rates
 from proc3s.suites.lock import alone_in
+from proc3s.suites.room_rates import RoomRate, room_chart, room_rates
 from proc3s.wording import count
 
-CHART = "hold_rates.svg"
+CHART, ROOM_CHART = "hold_rates.svg", "hold_by_room.svg"
 SEEDS, ROBUST, IMPROVE = 5, 2, 24
 """Of fixed programs, where the command line says nothing."""
 Work: TypeAlias = Sequence[Callable[[], Candidate]]
@@ -74,12 +75,13 @@ def run_field_test(wanted: FieldTestWanted, out: Path | None, as_json: bool) -> 
     folder, done = made_folder(out, "execution"), list[FieldTest]()
     with alone_in(folder):
         stopped = go_through(_test(registry, work, wanted.conditions, done), as_json)
-        rates = hold_rates(done)
-        if drawn := chart(rates):
-            write(folder / CHART, drawn)
-        deliver(folder, _document(wanted, done, rates, stopped), as_json)
+        rates, rooms = hold_rates(done), room_rates(done)
+        for name, drawn in ((CHART, chart(rates)), (ROOM_CHART, room_chart(rooms))):
+            if drawn:
+                write(folder / name, drawn)
+        deliver(folder, _document(wanted, done, rates, rooms, stopped), as_json)
         if not as_json:
-            _print(rates, by_room(done), folder, wanted.compares)
+            _print(rates, rooms, folder, wanted.compares)
     if stopped is not None:
         raise stopped
 
@@ -159,16 +161,20 @@ def _test(registry: Registry, work: Work, conditions: Conditions, done: list[Fie
 
 def _told(test: FieldTest) -> str:
     """A test in a line."""
-    rehearsed = count(test.robust, "rehearsal") if test.robust else ""
+    way = "improved" if test.improve else count(test.robust, "rehearsal") if test.robust else ""
     room = "" if test.room is None else f"room {test.room:.1f}"
     error = "" if test.error_mm is None else f"{test.error_mm:g} mm"
     outcome = f"{test.satisfied} of {test.times} hold" if test.solved else "no plan"
-    parts = (test.run or f"{test.case} seed {test.seed}", rehearsed, room, test.engine, error)
+    parts = (test.run or f"{test.case} seed {test.seed}", way, room, test.engine, error)
     return f"{', '.join(part for part in parts if part)}: {outcome}"
 
 
 def _document(
-    wanted: FieldTestWanted, done: Sequence[FieldTest], rates: Sequence[HoldRate], error: Proc3sError | None
+    wanted: FieldTestWanted,
+    done: Sequence[FieldTest],
+    rates: Sequence[HoldRate],
+    rooms: Sequence[RoomRate],
+    error: Proc3sError | None,
 ) -> dict[str, Any]:
     return {
         "options": {
@@ -181,7 +187,7 @@ def _document(
         "versions": versions(),
         "error": str(error) if error else None,
         "rows": [_row(rate) for rate in rates],
-        "rooms": [{"room": rate.room, **_row(rate)} for rate in by_room(done)],
+        "rooms": [{"room": rate.room, **_row(rate), **_halves(rate)} for rate in rooms],
         "tests": [asdict(test) for test in done],
     }
 
@@ -202,13 +208,21 @@ def _row(one: HoldRate) -> dict[str, Any]:
     }
 
 
+def _halves(one: RoomRate) -> dict[str, str]:
+    """How many hold of the even seeds, and of the odd ones."""
+    even, odd = one.of_seeds(odd=False), one.of_seeds(odd=True)
+    return {"even seeds": f"{even.held}/{even.times}", "odd seeds": f"{odd.held}/{odd.times}"}
+
+
 def _print(rates: Sequence[HoldRate], rooms: Sequence[RoomRate], folder: Path, compares: bool) -> None:
     console = Console(highlight=False)
     console.print("Plans carried out with small errors")
     print_table(console, *_compared(rates) if compares else _plain(rates), keys=2)
     if rooms:
         console.print("By room")
-        print_table(console, ("room", *_HELD), [[one.room, *_held(one)] for one in rooms], keys=1)
+        halves = ("even seeds", "odd seeds")
+        rows = [[one.room, *_held(one), *_halves(one).values()] for one in rooms]
+        print_table(console, ("room", *_HELD, *halves), rows, keys=1)
     console.print(f"folder   {folder}", soft_wrap=True)
 
 
