@@ -51,7 +51,7 @@ def register_solvers(register: Callable[[SolverSpec], None]) -> None:
     register(
         SolverSpec(
             name="roomier",
-            summary="Moves an accepted sample to where its plan stands larger errors (CMA-ES on the room).",
+            summary="Moves an accepted sample to where its plan stands larger errors (linear programs).",
             target="proc3s_solvers.roomier:Roomier",
             options="proc3s_solvers.roomier:RoomierOptions",
             objective="room",

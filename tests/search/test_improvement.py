@@ -4,7 +4,12 @@ import dataclasses
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
+from proc3s import Action, Trial
+from proc3s.domain.room import Room
+from proc3s.domain.samplers import ContinuousSampler, Space
 from proc3s.search.evaluator import Evaluator
 from proc3s.search.improvement import ENOUGH, Improvement, improve, room_value
 from proc3s.specs.domain import ErrorsSpec
@@ -31,7 +36,7 @@ def improved(problem, executor, samples=60, seed=0, start=START):
     found = Improvement(first)
     space = evaluator.sketch.space
     solver = Roomier(space, samples, np.random.default_rng(seed), RoomierOptions())
-    improve(found, space, solver, samples, evaluator.stream)
+    improve(found, problem.domain, space, solver, samples, evaluator.stream)
     return found
 
 
@@ -70,12 +75,14 @@ def test_a_solver_that_gives_up_ends_it(narrow, serial):
             return np.empty((0, HOPS))
 
     found, solver = Improvement(improved(narrow, serial, samples=1).start), Tired()
-    improve(found, Walks(narrow).space, solver, 10, lambda u: iter(()))
-    assert solver.told == [found.start]
+    improve(found, narrow.domain, Walks(narrow).space, solver, 10, lambda u: iter(()))
+    (told,) = solver.told
+    assert (told.u, told.room) == (found.start.u, found.start.room)
+    assert min(told.left.values()) == pytest.approx(told.room.value)
     assert found.trials == []
 
 
-def test_what_no_parameter_changes_costs_one_generation(narrow, serial):
+def test_what_no_parameter_changes_costs_two_looks_along_each(narrow, serial):
     """The room of a plan that every sample has."""
 
     class Stuck(Walks):
@@ -85,8 +92,30 @@ def test_what_no_parameter_changes_costs_one_generation(narrow, serial):
     evaluator = Evaluator(narrow, Stuck(narrow), serial)
     (start,) = evaluator.stream(np.array([START]) / 30)
     found, space = Improvement(start), evaluator.sketch.space
-    improve(
-        found, space, Roomier(space, 24, np.random.default_rng(0), RoomierOptions()), 24, evaluator.stream
-    )
-    assert len(found.trials) == RoomierOptions().population
+    solver = Roomier(space, 24, np.random.default_rng(0), RoomierOptions())
+    improve(found, narrow.domain, space, solver, 24, evaluator.stream)
+    assert len(found.trials) == 2 * HOPS
     assert found.better == []
+
+
+@given(st.lists(st.floats(0.02, 0.98), min_size=1, max_size=5))
+@settings(deadline=None)
+def test_linear_margins_are_balanced_wherever_it_begins(start):
+    """Every margin is the distance of a parameter to one bound of its range: the most is half the range."""
+    space = Space({f"x{k}": ContinuousSampler(0, 1) for k in range(len(start))})
+    solver = Roomier(space, 60, np.random.default_rng(0), RoomierOptions(aim=10.0))
+    best = trial = boxed(start)
+    solver.tell([trial])
+    for _ in range(40):
+        trials = [boxed(u) for u in solver.ask(60)]
+        best = max([best, *trials], key=room_value)
+        solver.tell(trials)
+    assert room_value(best) >= room_value(trial)
+    assert room_value(best) == pytest.approx(5.0, abs=0.05)
+
+
+def boxed(u):
+    """A trial whose margins, in tenths, are the distances of u to the faces of the cube."""
+    faces = {(k, side): 10 * abs(x - (side == "high")) for k, x in enumerate(u) for side in ("low", "high")}
+    (step, side), least = min(faces.items(), key=lambda item: item[1])
+    return Trial((Action("stand", ()),), u=tuple(u), room=Room(least, side, step, least), left=faces)

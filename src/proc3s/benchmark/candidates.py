@@ -72,7 +72,11 @@ def _search(setup: Setup, program: str) -> tuple[Evaluator, Trial | None, int]:
             return evaluator, None, 0
         endless = Deadline("", None)
         better = improved(setup, opened.sketch, search.solution, (0, 0), lambda trial: None, endless)
-        return evaluator, better.best if better else search.solution, better.rehearsals if better else 0
+        if better is None:
+            return evaluator, search.solution, 0
+        if better.broken_off is not None:
+            raise better.broken_off
+        return evaluator, better.best, better.rehearsals
 
 
 def saved(runs: Sequence[Path], wanted: Sequence[str], world: Mapping[str, str]) -> Iterator[Candidate]:

@@ -1,9 +1,11 @@
 """Room: how many errors of the expected size a plan stands before a constraint or a judge would refuse it."""
 
 import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from proc3s.domain.domain import Domain
+from proc3s.domain.values import Plan
 from proc3s.wording import plain
 
 GOAL = "goal"
@@ -50,6 +52,24 @@ def tightest(*rooms: Room | None) -> Room | None:
     """The smallest, the first of equal ones; None where nothing limits."""
     found = [room for room in rooms if room is not None]
     return min(found, key=lambda room: room.value, default=None)
+
+
+def left(
+    domain: Domain, plan: Plan, margins: Sequence[Mapping[str, float]], goal: float | None
+) -> dict[tuple[int, str], float]:
+    """The margins of a plan, and of the goal after its last step, in the errors that use them up.
+
+    Negative where a constraint is violated; without those that know yes and no only.
+    """
+    found = {
+        (step, name): margin / error
+        for step, here in enumerate(margins)
+        for name, margin in here.items()
+        if (error := expected_error(domain, name, plan[step].skill)) and math.isfinite(margin)
+    }
+    if goal is not None and math.isfinite(goal):
+        found[len(plan), GOAL] = goal / domain.spec.errors.of_placed
+    return found
 
 
 def expected_error(domain: Domain, constraint: str, skill: str) -> float | None:

@@ -74,7 +74,7 @@ def _explore(
     try:
         solver = setup.make_improver(space, setup.improve, rng)
         with blame("solver", SketchError):
-            improve(found, space, solver, setup.improve, take)
+            improve(found, setup.problem.domain, space, solver, setup.improve, take)
     except (SketchError, OutOfTime):  # what was found by then is as good
         return found, None
     except Proc3sError as error:

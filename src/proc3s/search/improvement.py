@@ -1,9 +1,12 @@
 """After a plan was accepted: a solver tries samples around it, for a plan with more room."""
 
+import dataclasses
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 
+from proc3s.domain.domain import Domain
+from proc3s.domain.room import left
 from proc3s.domain.samplers import Space
 from proc3s.domain.values import FloatArray
 from proc3s.search.search import points
@@ -40,12 +43,14 @@ def room_value(trial: Trial) -> float:
     return trial.room.value if trial.room else math.inf
 
 
-def improve(found: Improvement, space: Space, solver: Solver, samples: int, take: Take) -> None:
+def improve(
+    found: Improvement, domain: Domain, space: Space, solver: Solver, samples: int, take: Take
+) -> None:
     """Try at most so many samples that a solver asks for, which is told of the accepted trial first.
 
     It ends early where a plan has room enough, or the solver asks for no more.
     """
-    solver.tell([found.start])
+    solver.tell([_measured(domain, found.start)])
     while (left := samples - len(found.trials)) > 0 and found.most < ENOUGH:
         u = points(solver.ask(left), space.dim)[:left]
         if not len(u):
@@ -53,4 +58,11 @@ def improve(found: Improvement, space: Space, solver: Solver, samples: int, take
         begun = len(found.trials)
         for trial in take(u):
             found.trials.append(trial)
-        solver.tell(found.trials[begun:])
+        solver.tell([_measured(domain, trial) for trial in found.trials[begun:]])
+
+
+def _measured(domain: Domain, trial: Trial) -> Trial:
+    """The trial with all its margins in expected errors."""
+    if trial.plan is None:
+        return trial
+    return dataclasses.replace(trial, left=left(domain, trial.plan, trial.margins, trial.goal))

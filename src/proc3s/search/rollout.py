@@ -33,9 +33,8 @@ def rollout(world: World[Any], problem: Problem, plan: Plan, prefixes: Prefixes 
     if score is None:
         return trial
     if score.reached:
-        return dataclasses.replace(
-            trial, room=tightest(trial.room, room_at_goal(problem.domain, score.margin, reason))
-        )
+        room = tightest(trial.room, room_at_goal(problem.domain, score.margin, reason))
+        return dataclasses.replace(trial, room=room, goal=score.margin)
     miss = Violation("goal", len(plan), "goal", -1.0, reason)
     return dataclasses.replace(trial, violations=(miss,))
 

@@ -1,7 +1,7 @@
 """The verdict on one sample."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from proc3s.domain.margins import Violation
 from proc3s.domain.room import Room
@@ -16,6 +16,8 @@ class Trial:
     out, the margin of every constraint that applies, in its unit; `room` is the tightest of them and of the
     goal, if it was looked at, of a plan that is accepted without errors. `screen` names the screen that
     rejected the plan. `rehearsals` counts those of the plan, `index` the samples of a problem from 0.
+    `goal` is the margin of the judges, if they were asked and there is one. `left` is only known while a plan
+    is improved: all margins in expected errors, by step and constraint, the goal after the last step.
     """
 
     plan: Plan | None = None
@@ -28,6 +30,8 @@ class Trial:
     index: int = 0
     u: tuple[float, ...] = ()
     room: Room | None = None
+    goal: float | None = None
+    left: Mapping[tuple[int, str], float] = field(default_factory=dict)
 
     @property
     def accepted(self) -> bool:

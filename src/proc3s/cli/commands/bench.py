@@ -166,9 +166,9 @@ def execution(
 ) -> None:
     """Measure how often plans reach the goal when they are carried out with small errors.
 
-    Plans that were rehearsed and improved (--robust, 2 if it is not given; --improve, 24) are compared with
-    the first ones that were found. Without --error the world is disturbed as in rehearsals. With it, table
-    and hold_rates.svg say how often plans hold with which error.
+    Plans that were improved (--improve, 24 if it is not given; --robust) are compared with the first ones
+    that were found. Without --error the world is disturbed as in rehearsals. With it, table and
+    hold_rates.svg say how often plans hold with which error, and hold_by_room.svg with which room.
     """
     from proc3s.cli.handlers.bench_execution import FieldTestWanted, run_field_test
 

@@ -29,7 +29,7 @@ from proc3s.suites.room_rates import RoomRate, room_chart, room_rates
 from proc3s.wording import count
 
 CHART, ROOM_CHART = "hold_rates.svg", "hold_by_room.svg"
-SEEDS, ROBUST, IMPROVE = 5, 2, 24
+SEEDS, IMPROVE = 5, 24
 """Of fixed programs, where the command line says nothing."""
 Work: TypeAlias = Sequence[Callable[[], Candidate]]
 """What finds the plans to be tested, one by one."""
@@ -87,7 +87,7 @@ def run_field_test(wanted: FieldTestWanted, out: Path | None, as_json: bool) -> 
 
 
 def _searches(registry: Registry, wanted: FieldTestWanted) -> Work:
-    """Searches of fixed programs for the first plan, and for one that is rehearsed and improved.
+    """Searches of fixed programs for the first plan, and for one that is improved, and rehearsed if wanted.
 
     Raises UsageError if none can be tested.
     """
@@ -97,7 +97,7 @@ def _searches(registry: Registry, wanted: FieldTestWanted) -> Work:
         errors = "such errors" if wanted.error else "disturbances"
         raise UsageError(f"none of these programs has a task with a judge and a world with {errors}")
     safer = (
-        ROBUST if wanted.robust is None else wanted.robust,
+        wanted.robust or 0,
         IMPROVE if wanted.improve is None else wanted.improve,
     )
     seeds = range(SEEDS if wanted.seeds is None else wanted.seeds)
