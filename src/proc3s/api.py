@@ -43,6 +43,7 @@ def run(
     llm: AnyLLM | None = None,
     method: str = "proc3s",
     solver: AnySolver | None = None,
+    improver: AnySolver | None = None,
     preset: str = DEFAULT_PRESET,
     seed: int = 0,
     goal: str | None = None,
@@ -61,9 +62,10 @@ def run(
     LLMError for what is wrong before the run begins; what ends it later is the result's `error`.
     """
     given = dict(task=task, method=method, preset=preset, seed=seed, goal=goal, jobs=jobs, **options)
-    registry = _registry(plugins, domain, llm, solver)
+    registry = _registry(plugins, domain, llm, solver, improver)
     chosen = choose_llm(_name(llm), given.get("llm_options", {}))
-    given |= {"llm": chosen.name, "llm_options": dict(chosen.options), "solver": _name(solver)}
+    given |= {"llm": chosen.name, "llm_options": dict(chosen.options)}
+    given |= {"solver": _name(solver), "improver": _name(improver)}
     return _carry_out(Job(_options(given, plugins)), registry, out, on_event, progress)
 
 
@@ -73,6 +75,7 @@ def solve(
     *,
     method: str = "proc3s",
     solver: AnySolver | None = None,
+    improver: AnySolver | None = None,
     preset: str = DEFAULT_PRESET,
     seed: int = 0,
     goal: str | None = None,
@@ -88,8 +91,9 @@ def solve(
     if "\n" not in program.strip() and "gen_plan" not in program:
         raise UsageError(f"a program is given as its text, not as {program!r}; read the file first")
     given = dict(task=task, method=method, preset=preset, seed=seed, goal=goal, jobs=jobs, **options)
-    registry = _registry(plugins, domain, None, solver)
-    job = Job(_options(given | {"solver": _name(solver)}, plugins), given=Given(program))
+    registry = _registry(plugins, domain, None, solver, improver)
+    given |= {"solver": _name(solver), "improver": _name(improver)}
+    job = Job(_options(given, plugins), given=Given(program))
     return _carry_out(job, registry, out, on_event, progress)
 
 
@@ -158,14 +162,17 @@ def _registry(
     domain: DomainSpec | None,
     llm: AnyLLM | None,
     solver: AnySolver | None,
+    improver: AnySolver | None = None,
 ) -> Registry:
     """The registry of what is installed, and of the objects that were given."""
     given: list[Spec] = [domain] if domain else []
-    for part, what in ((solver, "a solver"), (llm, "a language model")):
+    for part, what in ((solver, "a solver"), (improver, "an improver"), (llm, "a language model")):
         if part is not None and not isinstance(part, str | LLM) and not callable(part):
             raise UsageError(f"{what} is given by name, as a class or as a function, not as {part!r}")
-    if solver is not None and not isinstance(solver, str):
-        given.append(SolverSpec(name=_name(solver) or "", target=solver, summary="given in Python"))
+    for make, objective in ((solver, "progress"), (improver, "room")):
+        if make is not None and not isinstance(make, str):
+            spec = {"name": _name(make), "target": make, "objective": objective}
+            given.append(SolverSpec.model_validate({**spec, "summary": "given in Python"}))
     if llm is not None and not isinstance(llm, str):
         name = _name(llm) or ""
         asked = llm if isinstance(llm, LLM) else FunctionLLM(llm, name)

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from proc3s.domain.room import Room
 from proc3s.domain.state import State
 from proc3s.domain.values import Action, Plan
 from proc3s.domain.world import make_world
@@ -127,6 +128,12 @@ class Result:
         """The plan that was carried out."""
         plan = self.summary.plan
         return tuple(Action.from_json(action) for action in plan) if plan else None
+
+    @property
+    def room(self) -> Room | None:
+        """What limits the accepted plan, and how many errors of the expected size it stands (`value`)."""
+        room = self.summary.room
+        return Room(**room) if room else None
 
     @property
     def program(self) -> str | None:

@@ -66,7 +66,7 @@ def test_judges_have_a_margin_too_where_the_goal_counts(problem):
     made = dataclasses.replace(made, task=made.task.model_copy(update={"judge": judge}))
     room = trial_of(made).room
     assert (room.constraint, room.step, room.value) == ("goal", None, 1.5)
-    assert str(room) == "1.5, at the goal: 0 m off"
+    assert str(room) == "1.5, by 1.5 at the goal: 0 m off"
     assert trial_of(dataclasses.replace(made, check_goal=False)).room.constraint == "no_pit"
 
 
@@ -86,3 +86,15 @@ def test_errors_are_positive():
     with pytest.raises(ValueError, match="greater than 0"):
         ErrorsSpec(placed=0)
     assert ErrorsSpec().turn == pytest.approx(np.radians(0.5))
+
+
+def test_an_error_of_zero_limits_nothing(problem):
+    made = changed(problem(), errors=ErrorsSpec(picked=0.0, placed=1.0))
+    skills = {"hop": made.domain.spec.skills["hop"].model_copy(update={"error": "picked"})}
+    assert trial_of(changed(made, skills=skills)).room is None
+
+
+def test_what_a_constraint_tolerates_is_room(problem):
+    exact = changed(problem(), errors=ErrorsSpec(picked=0.0, placed=0.5))
+    lenient = with_constraint(exact, "no_pit", tolerance=0.5)
+    assert (trial_of(exact).room.value, trial_of(lenient).room.value) == (4.0, 5.0)

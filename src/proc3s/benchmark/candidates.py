@@ -17,6 +17,7 @@ from proc3s.search.clock import Deadline
 from proc3s.search.evaluator import Evaluator
 from proc3s.search.start import start_search
 from proc3s.search.trial import Trial
+from proc3s.specs.parts import PresetSpec
 
 
 @dataclass(frozen=True)
@@ -79,13 +80,15 @@ def _search(setup: Setup, program: str) -> tuple[Evaluator, Trial | None, int]:
         return evaluator, better.best, better.rehearsals
 
 
-def saved(runs: Sequence[Path], wanted: Sequence[str], world: Mapping[str, str]) -> Iterator[Candidate]:
+def saved(
+    registry: Registry, runs: Sequence[Path], wanted: Sequence[str], world: Mapping[str, str]
+) -> Iterator[Candidate]:
     """The plans of runs that the world accepted; `world` replaces options of the worlds of the runs.
 
     `wanted` names domains, tasks or `domain/task.method`; none stands for all. Raises UsageError for a name
     that no such plan has.
     """
-    found = [candidate for run in runs if (candidate := _saved(run, world))]
+    found = [candidate for run in runs if (candidate := _saved(registry, run, world))]
     names = {name for candidate in found for name in candidate.names}
     for name in wanted:
         if name not in names:
@@ -103,7 +106,7 @@ def each_once(some: Sequence[Candidate]) -> list[Candidate]:
     return [*reversed(plans.values())]
 
 
-def _saved(run: Path, world: Mapping[str, str]) -> Candidate | None:
+def _saved(registry: Registry, run: Path, world: Mapping[str, str]) -> Candidate | None:
     """The plan of a run; None where none was accepted, its goal is its own, or its log is damaged."""
     try:
         known = plan_of(run)
@@ -112,7 +115,9 @@ def _saved(run: Path, world: Mapping[str, str]) -> Candidate | None:
     options = known.options
     if not known.accepted or options.goal is not None:
         return None
-    options = options.model_copy(update={"world_options": {**options.world_options, **world}})
+    improve = registry.get(PresetSpec, options.preset).improve if options.improve is None else options.improve
+    changes = {"world_options": {**options.world_options, **world}, "improve": improve}
+    options = options.model_copy(update=changes)
     name = options.method if options.preset == DEFAULT_PRESET else f"{options.method}.{options.preset}"
     known = replace(known, options=options)
     return Candidate(f"{options.task}.{name}", options, known, room=known.room, run=run)

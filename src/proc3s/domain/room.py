@@ -27,8 +27,10 @@ class Room:
     says: str = ""
 
     def __str__(self) -> str:
-        where = "at the goal" if self.step is None else f"at step {self.step}"
-        return f"{self.value:.1f}, {where}: {self.says or f'{self.constraint} by {plain(self.margin, 3)}'}"
+        by = plain(self.margin, 3)
+        if self.step is None:
+            return f"{self.value:.1f}, by {by} at the goal{f': {self.says}' if self.says else ''}"
+        return f"{self.value:.1f}, at step {self.step}: {self.says or f'{self.constraint} by {by}'}"
 
 
 def room_at(
@@ -38,7 +40,8 @@ def room_at(
     error = expected_error(domain, constraint, skill)
     if error is None or not math.isfinite(margin):
         return None
-    return Room(max(margin, 0.0) / error, constraint, step, margin, says)
+    spare = margin + domain.spec.constraints[constraint].tolerance
+    return Room(max(spare, 0.0) / error, constraint, step, margin, says)
 
 
 def room_at_goal(domain: Domain, margin: float | None, reason: str) -> Room | None:
@@ -61,8 +64,9 @@ def left(
 
     Negative where a constraint is violated; without those that know yes and no only.
     """
+    constraints = domain.spec.constraints
     found = {
-        (step, name): margin / error
+        (step, name): (margin + constraints[name].tolerance) / error
         for step, here in enumerate(margins)
         for name, margin in here.items()
         if (error := expected_error(domain, name, plan[step].skill)) and math.isfinite(margin)
@@ -73,7 +77,7 @@ def left(
 
 
 def expected_error(domain: Domain, constraint: str, skill: str) -> float | None:
-    """The error that uses up the margin of a constraint at a step with a skill; None: it is yes or no."""
+    """The error that uses up the margin of a constraint at a step with a skill; None: none does."""
     kind = domain.spec.constraints[constraint].error or domain.spec.skills[skill].error
     if kind == "none":
         return None
@@ -84,4 +88,4 @@ def expected_error(domain: Domain, constraint: str, skill: str) -> float | None:
         "turn": errors.turn,
         "speed": errors.speed,
     }
-    return known[kind]
+    return known[kind] or None

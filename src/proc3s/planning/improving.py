@@ -3,11 +3,12 @@
 import dataclasses
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from proc3s.domain.values import FloatArray
-from proc3s.errors import Interrupted, OutOfTime, Proc3sError, blame
+from proc3s.errors import Interrupted, Proc3sError, blame
 from proc3s.planning.parts import Setup
 from proc3s.sandbox.errors import SketchError
 from proc3s.search.clock import Deadline
@@ -27,7 +28,8 @@ LATER = 1
 class Improved:
     """What came of improving: the trial with the most room, and what was spent on it, apart from the search.
 
-    `broken_off` is what ended it before its time; the trial is good all the same.
+    `held` says whether it passed its rehearsals, None where there are none. `broken_off` is what ended it
+    before its time; the trial is good all the same.
     """
 
     best: Trial
@@ -35,13 +37,16 @@ class Improved:
     samples: int
     evaluations: int
     rehearsals: int
+    held: bool | None
     broken_off: Proc3sError | None = None
 
     @property
-    def counts(self) -> dict[str, float | None]:
-        """Samples, and the room before and after."""
+    def counts(self) -> dict[str, Any]:
+        """Samples, the room before and after, whether the plan passed rehearsals, and what broke it off."""
         before, after = (trial.room.value if trial.room else None for trial in (self.start, self.best))
-        return {"samples": self.samples, "room_before": before, "room_after": after}
+        ended = str(self.broken_off).partition(";")[0] if self.broken_off else None
+        counts = {"samples": self.samples, "room_before": before, "room_after": after}
+        return {**counts, "held": self.held, "broken_off": ended}
 
 
 def improved(
@@ -55,8 +60,8 @@ def improved(
         return None
     evaluator = Evaluator(dataclasses.replace(setup.problem, robust=0), sketch, setup.executor)
     found, broken_off = _explore(setup, evaluator, start, key, deadline)
-    best, rehearsals = _kept(setup, found, confirm)
-    return Improved(best, start, evaluator.samples, evaluator.evaluations, rehearsals, broken_off)
+    best, rehearsals, held = _kept(setup, found, confirm)
+    return Improved(best, start, evaluator.samples, evaluator.evaluations, rehearsals, held, broken_off)
 
 
 def _explore(
@@ -73,9 +78,9 @@ def _explore(
 
     try:
         solver = setup.make_improver(space, setup.improve, rng)
-        with blame("solver", SketchError):
+        with blame(f"solver {setup.improver}", SketchError):
             improve(found, setup.problem.domain, space, solver, setup.improve, take)
-    except (SketchError, OutOfTime):  # what was found by then is as good
+    except SketchError:  # what was found by then is as good
         return found, None
     except Proc3sError as error:
         return found, error
@@ -84,8 +89,8 @@ def _explore(
     return found, None
 
 
-def _kept(setup: Setup, found: Improvement, confirm: Confirm) -> tuple[Trial, int]:
-    """The roomiest trial that passes its rehearsals and is confirmed, and the rehearsals of all.
+def _kept(setup: Setup, found: Improvement, confirm: Confirm) -> tuple[Trial, int, bool | None]:
+    """The roomiest trial that passes its rehearsals and is confirmed, those of all, and whether it passed.
 
     If none passes, it is the roomiest that is confirmed, or the start if that was to pass rehearsals.
     """
@@ -94,17 +99,18 @@ def _kept(setup: Setup, found: Improvement, confirm: Confirm) -> tuple[Trial, in
         return trial is found.start or confirm(trial) is None
 
     ranked, rehearsals = [*found.better[:TRIES], found.start], 0
+    held = True if setup.rehearsals else None
     try:
         for trial in ranked:
             again = _rehearsed(setup, trial)
             rehearsals += again.rehearsals
             if again.accepted and good(trial):
-                return trial, rehearsals
+                return trial, rehearsals, held
         if not setup.problem.robust:
-            return next(trial for trial in ranked if good(trial)), rehearsals
+            return next(trial for trial in ranked if good(trial)), rehearsals, held and False
     except SketchError:  # too many that cannot be confirmed
         pass
-    return found.start, rehearsals
+    return found.start, rehearsals, held and setup.problem.robust > 0
 
 
 def _rehearsed(setup: Setup, trial: Trial) -> Trial:

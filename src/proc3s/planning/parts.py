@@ -35,6 +35,7 @@ class Setup:
     preset: PresetSpec
     solver: str
     make_solver: MakeSolver
+    improver: str
     make_improver: MakeSolver
     executor: Executor
     limits: Limits = field(default_factory=Limits)

@@ -150,7 +150,7 @@ def _attempt(entrant: Entrant, proposal: Proposal, emit: Emit) -> Attempt:
         improved=better,
         fallback=entrant.opened.plan if setup.method.fallback == "last_plan" else None,
         nearest=_nearest(entrant),
-        broken_off=search.broken_off or (better.broken_off if better else None),
+        broken_off=search.broken_off,
         samples=entrant.evaluator.samples,
         evaluations=entrant.evaluator.evaluations,
         rehearsals=entrant.evaluator.rehearsals,

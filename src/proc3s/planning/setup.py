@@ -12,7 +12,7 @@ from proc3s import specs
 from proc3s.domain.samplers import Space
 from proc3s.domain.world import World
 from proc3s.domain.world_options import with_world_options
-from proc3s.errors import Issue, SpecError, UsageError, blame
+from proc3s.errors import Issue, SpecError, UsageError, blame, did_you_mean
 from proc3s.llm.types import Message
 from proc3s.planning.limits import make_limits
 from proc3s.planning.options import DEFAULT_SOLVER, RunOptions
@@ -123,11 +123,14 @@ def solver_maker(
     registry: Registry, name: str, objective: str, options: Mapping[str, str] | None = None
 ) -> MakeSolver:
     """Makes a solver of that name. Raises UsageError if it does not look for what is wanted."""
-    spec = registry.get(specs.SolverSpec, name)
+    known = registry.all(specs.SolverSpec)
+    fit = [each.name for each in known.values() if each.objective == objective]
+    flag = "--solver" if objective == "progress" else "--improver"
+    if name not in known:
+        raise UsageError(f"{flag}: there is no solver {name!r}{did_you_mean(name, fit)}")
+    spec = known[name]
     if spec.objective != objective:
-        flag = "--solver" if objective == "progress" else "--improver"
-        known = [each.name for each in registry.all(specs.SolverSpec).values() if each.objective == objective]
-        raise UsageError(f"{flag}: {name} looks for {spec.objective}; take one of {', '.join(known)}")
+        raise UsageError(f"{flag}: {name} looks for {spec.objective}; take one of {', '.join(fit)}")
     given = part_options(spec, options or {})
     make = spec.load()
 
@@ -148,7 +151,8 @@ def make_setup(
     preset = registry.get(specs.PresetSpec, options.preset)
     name = options.solver or method.solver or preset.solver or DEFAULT_SOLVER
     make_solver = solver_maker(registry, name, "progress", options.solver_options)
-    make_improver = solver_maker(registry, options.improver or preset.improver, "room")
+    improver = options.improver or preset.improver
+    make_improver = solver_maker(registry, improver, "room")
     executor = make_executor(registry, options.executor, options.jobs)
     problem.domain.require(problem.task)
     if options.jobs > 1:
@@ -164,6 +168,7 @@ def make_setup(
         preset=preset,
         solver=name,
         make_solver=make_solver,
+        improver=improver,
         make_improver=make_improver,
         executor=executor,
         limits=limits,

@@ -64,9 +64,10 @@ class Summary(BaseModel):
     room: dict[str, Any] | None = None
     """What is tightest in the accepted plan: `value` in errors that are to be expected, `margin`,
     `constraint`, `step` (null for the goal) and `says`; null where nothing limits it."""
-    improved: dict[str, float | None] | None = None
-    """What was tried around the first accepted plan for more room: `samples`, `room_before` and `room_after`,
-    in errors that are to be expected; null where nothing was tried."""
+    improved: dict[str, Any] | None = None
+    """What was tried around the first accepted plan for more room: `samples`, `room_before` and `room_after`
+    in errors that are to be expected, whether the plan passed its rehearsals (`held`), and what ended this
+    before its time (`broken_off`); null where nothing was tried."""
     seconds: dict[str, float] = {}
     """Wall seconds by stage."""
     cpu_seconds: dict[str, float] = {}
@@ -167,7 +168,7 @@ def _rejected_by(outcome: Outcome) -> dict[str, int]:
     return dict(total)
 
 
-def _improved(outcome: Outcome) -> dict[str, float | None] | None:
+def _improved(outcome: Outcome) -> dict[str, Any] | None:
     better = next((attempt.improved for attempt in outcome.attempts if attempt.improved), None)
     return better.counts if better else None
 

@@ -18,11 +18,14 @@ def unused(options: RunOptions, setup: Setup) -> Iterator[str]:
     if method.samples == "none":
         search |= {"--audit": options.audit, "--robust": options.robust, "--no-screens": options.no_screens}
         search |= {"--check-goal": options.check_goal}
+        search |= {"--improve": options.improve, "--improver": options.improver}
     given = [name for name, value in search.items() if value]
     if method.samples != "budget" and given:
         drawn = "no samples" if method.samples == "none" else "one sample of a program"
         changes = "changes" if len(given) == 1 else "change"
         yield f"{method.name} draws {drawn}, so {', '.join(given)} {changes} nothing"
+    if options.improver and not setup.improve and method.samples != "none":
+        yield f"--improver changes nothing: --improve is 0 with preset {options.preset}"
     if options.audit and problem.screens == "none":
         yield "--audit changes nothing: no screen rejects anything"
     if options.check_goal and not (problem.task.judge and problem.goal == problem.task.instruction):

@@ -16,9 +16,16 @@ def room_lines(room: Mapping[str, Any] | None, improved: Mapping[str, Any] | Non
 
 
 def improvement(improved: Mapping[str, Any]) -> str:
-    """`from 0.4 to 2.1 by 24 samples around the first plan`."""
+    """`from 0.4 to 2.1 by 24 samples around the first plan; it passes its rehearsals`."""
     before, after, more = improved["room_before"], improved["room_after"], improved["samples"]
     tried = f"{count(int(more), 'sample')} around the first plan"
     if before is None or after is None or after <= before:
-        return f"no more by {tried}"
-    return f"from {before:.1f} to {after:.1f} by {tried}"
+        words = f"not: no roomier plan among {tried}"
+    else:
+        words = f"from {before:.1f} to {after:.1f} by {tried}"
+    held = improved.get("held")
+    if held is not None:
+        words += f"; it {'passes' if held else 'does not pass'} its rehearsals"
+    if ended := improved.get("broken_off"):
+        words += f"; ended early: {ended}"
+    return words

@@ -218,6 +218,10 @@ class PlanImproved(OfProgram):
     """Of the plan that was accepted first, in errors that are to be expected."""
     room_after: float | None
     """Of the plan that is carried out."""
+    held: bool | None = None
+    """Whether it passed its rehearsals; null where there are none."""
+    broken_off: str | None = None
+    """What ended this before its time."""
 
 
 class AttemptEnded(OfProgram):

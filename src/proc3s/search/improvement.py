@@ -13,8 +13,9 @@ from proc3s.search.search import points
 from proc3s.search.solver import Solver
 from proc3s.search.trial import Trial
 
-ENOUGH = 3.0
-"""Expected errors; a plan that stands as many is not improved any further."""
+ENOUGH, LEAST = 3.0, 0.01
+"""Expected errors: a plan that stands enough is not improved any further, one that stands less than the
+least more than another is not better."""
 Take = Callable[[FloatArray], Iterable[Trial]]
 """Gives the trials of samples (n, dim), in order."""
 
@@ -29,7 +30,8 @@ class Improvement:
     @property
     def better(self) -> list[Trial]:
         """The accepted trials with more room than at the start, the roomiest first."""
-        found = [t for t in self.trials if t.accepted and room_value(t) > room_value(self.start)]
+        least = room_value(self.start) + LEAST
+        found = [trial for trial in self.trials if trial.accepted and room_value(trial) > least]
         return sorted(found, key=room_value, reverse=True)
 
     @property

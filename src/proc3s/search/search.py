@@ -104,7 +104,10 @@ class Search:
 
 def points(asked: object, dim: int) -> FloatArray:
     """What a solver asks for as points (k, dim) of the unit cube. Raises SpecError if it is none."""
-    u = np.asarray(asked, float)
+    try:
+        u = np.asarray(asked, float)
+    except (TypeError, ValueError) as error:
+        raise not_wanted("solver", asked, "an array of numbers") from error
     if u.ndim != 2 or (len(u) and u.shape[1] != dim):
         raise not_wanted("solver", asked, f"points of shape (k, {dim})")
     if not ((u >= 0) & (u <= 1)).all():

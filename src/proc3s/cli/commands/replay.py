@@ -9,7 +9,11 @@ def replay(
     *,
     run: a.Run = None,
     given: Annotated[
-        a.Given, a.fields("solver", "samples", "executor", "solver_options", "world_options", "plugins")
+        a.Given,
+        a.fields(
+            *("solver", "samples", "improve", "improver", "executor", "solver_options"),
+            *("world_options", "plugins"),
+        ),
     ],
     out: a.Out = None,
     json: a.Json = False,

@@ -115,7 +115,8 @@ def _plans(registry: Registry, wanted: FieldTestWanted, folder: Path) -> Work:
         if value is not None:
             raise UsageError(f"--runs takes plans that are there, and searches none; leave {flag} out")
     runs = _runs_in(folder)
-    fit = _fit(registry, wanted, [*saved(runs, wanted.tasks, key_values([*wanted.world_options]))])
+    world = key_values([*wanted.world_options])
+    fit = _fit(registry, wanted, [*saved(registry, runs, wanted.tasks, world)])
     if not fit:
         needs = "an accepted plan, a task with a judge, and a world with such errors"
         raise UsageError(f"{folder} has {count(len(runs), 'run')}, but none with {needs}")
@@ -211,18 +212,22 @@ def _row(one: HoldRate) -> dict[str, Any]:
 def _halves(one: RoomRate) -> dict[str, str]:
     """How many hold of the even seeds, and of the odd ones."""
     even, odd = one.of_seeds(odd=False), one.of_seeds(odd=True)
-    return {"even seeds": f"{even.held}/{even.times}", "odd seeds": f"{odd.held}/{odd.times}"}
+    return {
+        f"{name} seeds": f"{half.held}/{half.times}" if half.times else ""
+        for name, half in (("even", even), ("odd", odd))
+    }
 
 
 def _print(rates: Sequence[HoldRate], rooms: Sequence[RoomRate], folder: Path, compares: bool) -> None:
     console = Console(highlight=False)
-    console.print("Plans carried out with small errors")
-    print_table(console, *_compared(rates) if compares else _plain(rates), keys=2)
+    if rates:
+        console.print("Plans carried out with small errors")
+        print_table(console, *_compared(rates) if compares else _plain(rates), keys=5 if compares else 2)
     if rooms:
         console.print("By room")
         halves = ("even seeds", "odd seeds")
         rows = [[one.room, *_held(one), *_halves(one).values()] for one in rooms]
-        print_table(console, ("room", *_HELD, *halves), rows, keys=1)
+        print_table(console, ("room", *_HELD, *halves), rows, keys=3)
     console.print(f"folder   {folder}", soft_wrap=True)
 
 
