@@ -59,12 +59,11 @@ class Roomier(BatchSearch):
             super().tell(trials)
 
     def _search(self) -> Batches[None]:
-        step = self._options.step
         while (dimensions := self._dimensions()).size:
+            around = self._around(dimensions)
             self._looks[dimensions] += 1
-            if (yield from self._run(self._around(dimensions, step))):
+            if (yield from self._run(around)):
                 self._looks[:] = 0
-            step = -step
         while True:
             yield np.empty((0, self._space.dim))
 
@@ -90,10 +89,11 @@ class Roomier(BatchSearch):
         order: NDArray[np.intp] = np.lexsort((last - begins, self._looks))
         return order[(begins[order] <= last) & (self._looks[order] < LOOKS)][:FEW]
 
-    def _around(self, dimensions: NDArray[np.intp], step: float) -> FloatArray:
-        """Samples a step away from the best, each along one of the dimensions."""
+    def _around(self, dimensions: NDArray[np.intp]) -> FloatArray:
+        """Samples a step away from the best, each along one of the dimensions; later to its other side."""
         away = np.zeros((len(dimensions), self._space.dim))
-        away[np.arange(len(dimensions)), dimensions] = step
+        side = np.where(self._looks[dimensions] % 2, -1.0, 1.0)
+        away[np.arange(len(dimensions)), dimensions] = side * self._options.step
         there = self._u + away
         # The cube has room on one side at least.
         return np.where((there < 0.0) | (there > BELOW_ONE), self._u - away, there).clip(0.0, BELOW_ONE)

@@ -111,8 +111,8 @@ def _passes(step: Step) -> Margin | None:
     clearance = step.telemetry.clearance
     if clearance is None:
         return None
-    distance, one, other = max(0.0, clearance.distance), clearance.body, clearance.other
-    return Margin(distance, says=sentences.passes(thing(step, one), thing(step, other), distance))
+    one, other = thing(step, clearance.body), thing(step, clearance.other)
+    return Margin(max(0.0, clearance.each), says=sentences.passes(one, other, max(0.0, clearance.distance)))
 
 
 def _squeezed(step: Step) -> Iterator[Margin]:

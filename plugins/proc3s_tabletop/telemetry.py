@@ -30,11 +30,20 @@ something.
 
 @dataclass(frozen=True)
 class Clearance:
-    """The distance of two bodies in m, negative where they penetrate; `body` is of the robot or its load."""
+    """The distance of two bodies in m, negative where they penetrate; `body` is of the robot or its load.
+
+    `shared`: both were, or are, set down off their place, so each may use up half of it.
+    """
 
     distance: float
     body: str
     other: str
+    shared: bool = False
+
+    @property
+    def each(self) -> float:
+        """How far each of those that may be off their place may be so, m."""
+        return self.distance / 2 if self.shared else self.distance
 
 
 @dataclass(frozen=True)
@@ -120,7 +129,7 @@ class Telemetry:
 
 def least(clearances: "list[Clearance | None]") -> Clearance | None:
     """The smallest of the clearances that exist; ties go to the first."""
-    return min((c for c in clearances if c), key=lambda c: c.distance, default=None)
+    return min((c for c in clearances if c), key=lambda c: c.each, default=None)
 
 
 def displacement(

@@ -28,6 +28,7 @@ def test_a_block_beside_another_is_as_near_as_the_gap_between_them(put, gap):
     found = put((0.04 + gap, -0.5, 0.02), b=(0.0, -0.5, 0.02))
     assert (found.body, found.other) == ("a", "b")
     assert found.distance == pytest.approx(gap, abs=2e-4)
+    assert found.each == found.distance / 2  # both are off their place
 
 
 def test_what_is_below_is_not_beside(put):

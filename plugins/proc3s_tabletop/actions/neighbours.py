@@ -8,8 +8,8 @@ from proc3s_tabletop.engine.protocol import Simulation
 from proc3s_tabletop.robot.frames import Frame
 from proc3s_tabletop.telemetry import Clearance, least
 
-NEAR = 0.010
-"""Neighbours count up to here, m: many times the error that an arm places with."""
+NEAR = 0.013
+"""Neighbours count up to here, m: more than three errors that each of two is expected to be placed with."""
 RAISED = 0.001
 """An object is looked at from this much above where it will stand, so that it touches no support, m."""
 
@@ -28,7 +28,7 @@ def note_neighbours(attempt: Attempt, name: str, stands: Frame) -> None:
         least(
             [
                 # The descent has found what the object touches.
-                Clearance(max(0.0, distance), name, other)
+                Clearance(max(0.0, distance), name, other, shared=True)
                 for other, distance in near.items()
                 if distance is not None and _heights(scene, other).max() > lowest
             ]

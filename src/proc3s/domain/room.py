@@ -1,11 +1,9 @@
 """Room: how many errors of the expected size a plan stands before a constraint or a judge would refuse it."""
 
 import math
-from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from proc3s.domain.domain import Domain
-from proc3s.domain.values import Plan
 from proc3s.wording import plain
 
 GOAL = "goal"
@@ -37,18 +35,14 @@ def room_at(
     domain: Domain, constraint: str, skill: str, step: int, margin: float, says: str = ""
 ) -> Room | None:
     """What a constraint leaves at a step; None where it knows yes and no only."""
-    error = expected_error(domain, constraint, skill)
-    if error is None or not math.isfinite(margin):
-        return None
-    spare = margin + domain.spec.constraints[constraint].tolerance
-    return Room(max(spare, 0.0) / error, constraint, step, margin, says)
+    left = errors_left(domain, constraint, skill, margin)
+    return None if left is None else Room(max(left, 0.0), constraint, step, margin, says)
 
 
 def room_at_goal(domain: Domain, margin: float | None, reason: str) -> Room | None:
-    """What the judges leave, whose margin the errors of what is placed use up."""
-    if margin is None or not math.isfinite(margin):
-        return None
-    return Room(max(margin, 0.0) / domain.spec.errors.of_placed, GOAL, None, margin, reason)
+    """What the judges leave."""
+    left = goal_left(domain, margin)
+    return None if left is None or margin is None else Room(max(left, 0.0), GOAL, None, margin, reason)
 
 
 def tightest(*rooms: Room | None) -> Room | None:
@@ -57,23 +51,17 @@ def tightest(*rooms: Room | None) -> Room | None:
     return min(found, key=lambda room: room.value, default=None)
 
 
-def left(
-    domain: Domain, plan: Plan, margins: Sequence[Mapping[str, float]], goal: float | None
-) -> dict[tuple[int, str], float]:
-    """The margins of a plan, and of the goal after its last step, in the errors that use them up.
+def errors_left(domain: Domain, constraint: str, skill: str, margin: float) -> float | None:
+    """A margin at a step in errors that use it up, negative where it is violated; None: there are none."""
+    error = expected_error(domain, constraint, skill)
+    if error is None or not math.isfinite(margin):
+        return None
+    return (margin + domain.spec.constraints[constraint].tolerance) / error
 
-    Negative where a constraint is violated; without those that know yes and no only.
-    """
-    constraints = domain.spec.constraints
-    found = {
-        (step, name): (margin + constraints[name].tolerance) / error
-        for step, here in enumerate(margins)
-        for name, margin in here.items()
-        if (error := expected_error(domain, name, plan[step].skill)) and math.isfinite(margin)
-    }
-    if goal is not None and math.isfinite(goal):
-        found[len(plan), GOAL] = goal / domain.spec.errors.of_placed
-    return found
+
+def goal_left(domain: Domain, margin: float | None) -> float | None:
+    """The same of the judges' margin, which the errors of what is placed use up."""
+    return margin / domain.spec.errors.of_placed if margin is not None and math.isfinite(margin) else None
 
 
 def expected_error(domain: Domain, constraint: str, skill: str) -> float | None:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 
 from proc3s.domain.domain import Domain
-from proc3s.domain.room import left
+from proc3s.domain.room import GOAL, errors_left, goal_left
 from proc3s.domain.samplers import Space
 from proc3s.domain.values import FloatArray
 from proc3s.search.search import points
@@ -64,7 +64,16 @@ def improve(
 
 
 def _measured(domain: Domain, trial: Trial) -> Trial:
-    """The trial with all its margins in expected errors."""
-    if trial.plan is None:
-        return trial
-    return dataclasses.replace(trial, left=left(domain, trial.plan, trial.margins, trial.goal))
+    """The trial with all its margins in expected errors; what a screen rejected has that of its violation."""
+    found = [(v.step, v.constraint, v.skill, v.margin) for v in trial.violations]
+    if trial.plan is not None and trial.margins:
+        steps = enumerate(zip(trial.plan, trial.margins, strict=False))
+        found = [(k, name, action.skill, m) for k, (action, here) in steps for name, m in here.items()]
+    left = {
+        (step, name): value
+        for step, name, skill, margin in found
+        if name in domain.spec.constraints and (value := errors_left(domain, name, skill, margin)) is not None
+    }
+    if trial.plan is not None and (value := goal_left(domain, trial.goal)) is not None:
+        left[len(trial.plan), GOAL] = value
+    return dataclasses.replace(trial, left=left)

@@ -36,7 +36,7 @@ def rollout(world: World[Any], problem: Problem, plan: Plan, prefixes: Prefixes 
         room = tightest(trial.room, room_at_goal(problem.domain, score.margin, reason))
         return dataclasses.replace(trial, room=room, goal=score.margin)
     miss = Violation("goal", len(plan), "goal", -1.0, reason)
-    return dataclasses.replace(trial, violations=(miss,))
+    return dataclasses.replace(trial, violations=(miss,), goal=score.margin)
 
 
 def carry_out(

@@ -17,7 +17,8 @@ class Trial:
     goal, if it was looked at, of a plan that is accepted without errors. `screen` names the screen that
     rejected the plan. `rehearsals` counts those of the plan, `index` the samples of a problem from 0.
     `goal` is the margin of the judges, if they were asked and there is one. `left` is only known while a plan
-    is improved: all margins in expected errors, by step and constraint, the goal after the last step.
+    is improved: all margins in expected errors, by step and constraint, the goal after the last step; that of
+    the violation only where a screen rejected the sample.
     """
 
     plan: Plan | None = None
