@@ -92,7 +92,8 @@ def _explore(
 def _kept(setup: Setup, found: Improvement, confirm: Confirm) -> tuple[Trial, int, bool | None]:
     """The roomiest trial that passes its rehearsals and is confirmed, those of all, and whether it passed.
 
-    If none passes, it is the roomiest that is confirmed, or the start if that was to pass rehearsals.
+    If none passes, it is the roomiest that stands an expected error, or else the start: what is roomier but
+    stands less is no safer. It is the start if that was to pass rehearsals.
     """
 
     def good(trial: Trial) -> bool:
@@ -107,7 +108,8 @@ def _kept(setup: Setup, found: Improvement, confirm: Confirm) -> tuple[Trial, in
             if again.accepted and good(trial):
                 return trial, rehearsals, held
         if not setup.problem.robust:
-            return next(trial for trial in ranked if good(trial)), rehearsals, held and False
+            safer = [trial for trial in found.better[:TRIES] if room_value(trial) >= 1]
+            return next(trial for trial in [*safer, found.start] if good(trial)), rehearsals, held and False
     except SketchError:  # too many that cannot be confirmed
         pass
     return found.start, rehearsals, held and setup.problem.robust > 0
