@@ -32,6 +32,7 @@ def panels(text):
         ("bench", ["Arguments", "Episodes", "LLM", "Search", "World", "Output"]),
         ("bench ccsp", ["Episodes", "Search", "World", "Output"]),
         ("bench execution", ["Episodes", "Search", "World", "Output"]),
+        ("bench command", ["Episodes", "Search", "World", "Output"]),
         ("explain", ["Arguments", "Options"]),
     ],
 )

@@ -104,12 +104,20 @@ def _ratio(
     cost: Callable[[Measurement], float],
     solving: bool = False,
 ) -> Ratio | None:
-    """Of the costs of pairs (plain, own); the bootstrap draws seeds with a fixed generator."""
+    """Of the costs of pairs (plain, own)."""
     pairs = list(pairs)
+    at_least = solving and not all(plain.solved for plain, _ in pairs)
+    return geometric([(cost(plain), cost(own)) for plain, own in pairs], at_least)
+
+
+def geometric(pairs: Sequence[tuple[float, float]], at_least: bool = False) -> Ratio | None:
+    """How many times the second of each pair the first is; None without a pair.
+
+    The bootstrap draws pairs with a fixed generator.
+    """
     if not pairs:
         return None
-    logs = np.log([cost(plain) / cost(own) for plain, own in pairs])
+    logs = np.log([plain / own for plain, own in pairs])
     drawn = np.random.default_rng(0).choice(logs, (_RESAMPLES, len(logs))).mean(axis=1)
     low, high = np.exp(np.quantile(drawn, [0.025, 0.975])).tolist()
-    at_least = solving and not all(plain.solved for plain, _ in pairs)
     return Ratio(mean=float(np.exp(logs.mean())), low=low, high=high, seeds=len(pairs), at_least=at_least)

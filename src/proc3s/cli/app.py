@@ -93,6 +93,7 @@ _COMMANDS: dict[str, Callable[..., Any]] = {
     "bench": bench.bench,
     "bench ccsp": bench.ccsp,
     "bench execution": bench.execution,
+    "bench command": bench.command,
     "compare": compare.compare,
     "judge": judge.judge,
     "check": check.check,

@@ -1,4 +1,4 @@
-"""`proc3s bench`, `proc3s bench ccsp` and `proc3s bench execution`."""
+"""`proc3s bench`, and the benchmarks that ask no LLM: `ccsp`, `execution` and `command`."""
 
 from pathlib import Path
 from typing import Annotated, TypeAlias
@@ -64,8 +64,9 @@ def bench(
 ) -> None:
     """Run a suite, which is tasks by methods, presets and seeds, and make its tables.
 
-    Two benchmarks ask no LLM and have a --help of their own: `proc3s bench ccsp` measures how fast programs
-    are searched, `proc3s bench execution` how often plans reach the goal despite small errors.
+    Others ask no LLM and have a --help of their own: `proc3s bench ccsp` measures how fast programs are
+    searched, `proc3s bench execution` how often plans reach the goal despite small errors, and
+    `proc3s bench command` what whole runs cost.
     """
     from proc3s.cli.handlers.bench_suite import SuiteWanted, run_suite
 
@@ -117,6 +118,32 @@ def ccsp(
         throughput=throughput,
     )
     run_bench(wanted, out, json)
+
+
+def command(
+    *,
+    tasks: Annotated[
+        Many, _names("--tasks", "domain or domain/task, with commas (default: all with a bundled answer)")
+    ] = None,
+    seeds: Seeds = None,
+    against: Annotated[
+        str | None,
+        typer.Option(
+            "--against",
+            metavar="PYTHON",
+            help="Python of another environment with proc3s; every run is made by both, in turns",
+            rich_help_panel="Episodes",
+        ),
+    ] = None,
+    given: Annotated[a.Given, a.fields("preset", "improve", "world_options", "plugins")],
+    out: Out = None,
+    json: a.Json = False,
+) -> None:
+    """Measure what a whole `proc3s run` with a bundled answer costs, by stage, in CPU and wall seconds."""
+    from proc3s.cli.handlers.bench_command import CommandsWanted, run_bench_command
+
+    wanted = CommandsWanted(**given, tasks=_split("--tasks", tasks), seeds=seeds or 5, against=against)
+    run_bench_command(wanted, out, json)
 
 
 def execution(

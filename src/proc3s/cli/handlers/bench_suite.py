@@ -35,7 +35,7 @@ from proc3s.suites.runner import ALIKE, RUNS, Order, Runner, remaining
 from proc3s.suites.store import Store
 from proc3s.wording import count
 
-OTHERS = ("ccsp", "execution")
+OTHERS = ("ccsp", "execution", "command")
 """Benchmarks that are no suites; each is a command of its own."""
 
 
