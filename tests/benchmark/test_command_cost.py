@@ -55,6 +55,17 @@ def test_a_run_that_does_not_come_to_its_end_is_told_with_its_last_words(cli, he
     assert json.loads((here / "cost/results.json").read_text())["error"]
 
 
+def test_the_other_python_is_found_from_where_the_command_is_given(cli, here, python):
+    (here / "there").symlink_to(python(json.dumps(SUMMARY)))
+    args = ("bench", "command", "--tasks", "drawing/star", "--seeds", 1, "--against")
+    assert cli(*args, "./there", "--out", "cost").code == 0
+    missing = cli(*args, "./nowhere")
+    assert (missing.code, missing.stderr) == (
+        2,
+        "proc3s: --against: there is no Python ./nowhere that can be run\n",
+    )
+
+
 @pytest.mark.parametrize(
     ("name", "said"),
     [("drawing/moon", "no task 'moon'"), ("moon", "moon"), ("drawing/free", "has no bundled answer")],

@@ -14,13 +14,15 @@ import numpy as np
 
 from proc3s.benchmark.statistics import Ratio, geometric
 from proc3s.errors import UsageError
+from proc3s.planning.options import RunOptions
 from proc3s.plugins.registry import Registry
 from proc3s.search.clock import STAGES
 from proc3s.specs.domain import DomainSpec
 
 AROUND = "start and end"
 """What is in no stage of a run: imports, reading specs, writing the run folder, exit."""
-METHOD = "proc3s"
+METHOD: str = RunOptions.model_fields["method"].default
+"""Of a run that names none."""
 
 
 @dataclass(frozen=True)

@@ -100,19 +100,19 @@ def _kept(setup: Setup, found: Improvement, confirm: Confirm) -> tuple[Trial, in
         return trial is found.start or confirm(trial) is None
 
     ranked, rehearsals = [*found.better[:TRIES], found.start], 0
-    held = True if setup.rehearsals else None
+    passed, failed = (True, False) if setup.rehearsals else (None, None)
     try:
         for trial in ranked:
             again = _rehearsed(setup, trial)
             rehearsals += again.rehearsals
             if again.accepted and good(trial):
-                return trial, rehearsals, held
+                return trial, rehearsals, passed
         if not setup.problem.robust:
             safer = [trial for trial in found.better[:TRIES] if room_value(trial) >= 1]
-            return next(trial for trial in [*safer, found.start] if good(trial)), rehearsals, held and False
+            return next(trial for trial in [*safer, found.start] if good(trial)), rehearsals, failed
     except SketchError:  # too many that cannot be confirmed
         pass
-    return found.start, rehearsals, held and setup.problem.robust > 0
+    return found.start, rehearsals, passed if setup.problem.robust else failed
 
 
 def _rehearsed(setup: Setup, trial: Trial) -> Trial:

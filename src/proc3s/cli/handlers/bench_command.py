@@ -1,9 +1,10 @@
 """The costs of whole commands from the command line, as a table and as files."""
 
 import itertools
+import shutil
 import sys
 from collections.abc import Generator, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -19,7 +20,7 @@ from proc3s.benchmark.command_cost import (
 )
 from proc3s.cli.console.tables import print_table
 from proc3s.cli.handlers.bench import deliver, go_through, made_folder
-from proc3s.errors import Proc3sError
+from proc3s.errors import Proc3sError, UsageError
 from proc3s.plugins.registry import open_registry
 from proc3s.plugins.versions import versions
 from proc3s.suites.lock import alone_in
@@ -32,6 +33,7 @@ class CommandsWanted:
     tasks: tuple[str, ...]
     seeds: int
     against: str | None = None
+    """The path of the other Python."""
     preset: str | None = None
     improve: int | None = None
     world_options: Sequence[str] = ()
@@ -54,6 +56,8 @@ class CommandsWanted:
 
 def run_bench_command(wanted: CommandsWanted, out: Path | None, as_json: bool) -> None:
     """Measure, print and write. What is done when it is interrupted is kept. Raises UsageError."""
+    if wanted.against:
+        wanted = replace(wanted, against=_python(wanted.against))
     tasks = tasks_with_answers(open_registry(wanted.plugins), wanted.tasks)
     folder, costs = made_folder(out, "command"), list[CommandCost]()
     with alone_in(folder):
@@ -64,6 +68,14 @@ def run_bench_command(wanted: CommandsWanted, out: Path | None, as_json: bool) -
             _print(rows, folder, wanted)
     if stopped is not None:
         raise stopped
+
+
+def _python(given: str) -> str:
+    """The path of a Python that is given by its name or path. Raises UsageError if it cannot be run."""
+    found = shutil.which(given)
+    if found is None:
+        raise UsageError(f"--against: there is no Python {given} that can be run")
+    return str(Path(found).absolute())
 
 
 def _measure(tasks: Sequence[str], wanted: CommandsWanted, costs: list[CommandCost]) -> Generator[str]:
